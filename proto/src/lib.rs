@@ -1,0 +1,21 @@
+//! Wire types of `frontalis.v1`, and nothing else.
+//!
+//! The contracts of the streams are written in the `.proto` files under `frontalis/v1/`.
+//! The code under `src/generated/` is made from them and committed, so that building needs no protobuf compiler;
+//! `tests/generated_is_current.rs` fails when it is stale and says how to make it anew.
+
+/// Version 1 of the protocol.
+#[expect(
+    missing_docs,
+    clippy::all,
+    clippy::pedantic,
+    clippy::allow_attributes,
+    clippy::allow_attributes_without_reason,
+    reason = "generated code; its documentation is that of the .proto files"
+)]
+pub mod v1 {
+    include!("generated/frontalis.v1.rs");
+}
+
+/// The compiled `.proto` files as a `google.protobuf.FileDescriptorSet`, for server reflection.
+pub const FILE_DESCRIPTOR_SET: &[u8] = include_bytes!("generated/frontalis.v1.bin");
