@@ -1,1 +1,10 @@
-//! Skeleton.
+//! The Frontalis server: capture streams in, muscle curves out.
+//!
+//! Layers, each of which names only what stands to its right: `service → wire → session → hub`, all on
+//! `frontalis_analysis`; [`catalogue`] keeps what survives a restart.
+
+pub mod catalogue;
+pub mod clock;
+pub mod executor;
+pub mod fs;
+pub mod name;

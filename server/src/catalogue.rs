@@ -1,0 +1,198 @@
+//! What survives a restart: actors with their revisions and packages, sessions with their epochs and alignments.
+//!
+//! SQLite with full synchronous commits (CONTRACTS U-11), package bytes as files beside it.
+//! A call that returned without an error has reached the disk.
+//! The methods of [`Catalogue`] block; [`Store`] is the same for async callers.
+
+mod actors;
+mod alignment;
+mod lock;
+mod packages;
+mod revision;
+mod schema;
+mod sessions;
+mod settings;
+mod store;
+
+use std::{
+    io,
+    path::{Path, PathBuf},
+    sync::{Arc, Mutex, MutexGuard, PoisonError},
+};
+
+use rusqlite::Connection;
+
+use crate::fs::{Fs, MemFs, StdFs};
+
+pub use alignment::StoredAlignment;
+pub use revision::{ActorRevision, Layout, NewRevision};
+pub use sessions::{NewSession, SessionRow};
+pub use settings::StoredSettings;
+pub use store::{ActorLoadError, Store};
+
+/// Name of the database in the data directory.
+const DATABASE: &str = "catalogue.sqlite";
+
+/// Why the catalogue could not do what it was asked to.
+#[derive(Debug, thiserror::Error)]
+pub enum CatalogueError {
+    /// The database failed.
+    #[error("the catalogue's database failed")]
+    Database(#[from] rusqlite::Error),
+    /// A call to the file system failed.
+    #[error("the data directory could not be used")]
+    Storage(#[from] io::Error),
+    /// Written by a newer server; left untouched.
+    #[error("the catalogue has version {found}, this server knows versions up to {known}")]
+    NewerVersion {
+        /// Version of the catalogue.
+        found: i64,
+        /// Newest version that this server knows.
+        known: i64,
+    },
+    /// Another server uses the data directory.
+    #[error("the data directory {} is in use by another server ({holder})", dir.display())]
+    InUse {
+        /// The data directory.
+        dir: PathBuf,
+        /// What the lock file says of the other server.
+        holder: String,
+    },
+    /// No session of that id.
+    #[error("no such session")]
+    NoSession,
+    /// A session of that id exists and has not ended.
+    #[error("a session of this id exists and has not ended")]
+    SessionExists,
+    /// No actor of that id, or no such revision of it.
+    #[error("no such actor or revision")]
+    NoActor,
+    /// The actor is used by sessions that have not ended.
+    #[error("{n_sessions} sessions use this actor")]
+    ActorInUse {
+        /// How many sessions use it.
+        n_sessions: u64,
+    },
+    /// An import under an existing id has other muscles or markers.
+    #[error("the {what} differ from those of the actor's revision {revision}")]
+    LayoutChanged {
+        /// `muscles` or `markers`.
+        what: &'static str,
+        /// The newest revision.
+        revision: u32,
+    },
+    /// A stored value cannot be read.
+    #[error("the stored {what} cannot be read")]
+    Unreadable {
+        /// What was stored.
+        what: &'static str,
+    },
+}
+
+/// Actors and sessions of one data directory.
+///
+/// One process at a time uses a directory; a lock file sees to that, and the system releases it with the process.
+#[derive(Debug)]
+pub struct Catalogue {
+    connection: Mutex<Connection>,
+    fs: Arc<dyn Fs>,
+    packages: PathBuf,
+    /// Held for as long as the catalogue lives.
+    _lock: Option<lock::DirectoryLock>,
+}
+
+impl Catalogue {
+    /// Opens the catalogue in `dir`, making both unless they exist, and removes what a crash left half done.
+    ///
+    /// # Errors
+    ///
+    /// [`CatalogueError::InUse`], [`CatalogueError::NewerVersion`], or that the disk or the database failed.
+    pub fn open(dir: &Path) -> Result<Self, CatalogueError> {
+        StdFs.create_dir_all(dir)?;
+        let lock = lock::DirectoryLock::take(dir)?;
+        let connection = Connection::open(dir.join(DATABASE))?;
+        StdFs.sync_dir(dir)?;
+        Self::start(connection, Arc::new(StdFs), dir, Some(lock))
+    }
+
+    /// A catalogue that lives in memory and is gone with this value; package bytes go to `files`.
+    ///
+    /// # Errors
+    ///
+    /// That the database failed.
+    pub fn in_memory(files: MemFs) -> Result<Self, CatalogueError> {
+        let connection = Connection::open_in_memory()?;
+        Self::start(connection, Arc::new(files), Path::new("/"), None)
+    }
+
+    fn start(
+        mut connection: Connection,
+        fs: Arc<dyn Fs>,
+        dir: &Path,
+        lock: Option<lock::DirectoryLock>,
+    ) -> Result<Self, CatalogueError> {
+        schema::prepare(&mut connection)?;
+        let catalogue = Self {
+            connection: Mutex::new(connection),
+            fs,
+            packages: dir.join("packages"),
+            _lock: lock,
+        };
+        catalogue.fs.create_dir_all(&catalogue.packages)?;
+        catalogue.sweep_packages()?;
+        Ok(catalogue)
+    }
+
+    /// A panic while the lock was held cannot leave the connection in a half state: an open transaction rolls back.
+    fn connection(&self) -> MutexGuard<'_, Connection> {
+        self.connection
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_second_server_on_the_same_directory_is_refused() {
+        let dir = tempfile::tempdir().unwrap();
+        let first = Catalogue::open(dir.path()).unwrap();
+        let second = Catalogue::open(dir.path());
+        assert!(matches!(second, Err(CatalogueError::InUse { .. })));
+        drop(first);
+        Catalogue::open(dir.path()).unwrap();
+    }
+
+    #[test]
+    fn a_catalogue_of_a_newer_server_is_refused_and_left_untouched() {
+        let dir = tempfile::tempdir().unwrap();
+        drop(Catalogue::open(dir.path()).unwrap());
+        let raw = Connection::open(dir.path().join(DATABASE)).unwrap();
+        raw.pragma_update(None, "user_version", 99).unwrap();
+        drop(raw);
+        let refused = Catalogue::open(dir.path());
+        assert!(matches!(
+            refused,
+            Err(CatalogueError::NewerVersion { found: 99, .. })
+        ));
+    }
+
+    #[test]
+    fn commits_are_full_and_synchronous() {
+        let dir = tempfile::tempdir().unwrap();
+        let catalogue = Catalogue::open(dir.path()).unwrap();
+        let ask = |pragma: &str| -> String {
+            catalogue
+                .connection()
+                .pragma_query_value(None, pragma, |row| {
+                    row.get::<_, rusqlite::types::Value>(0)
+                        .map(|it| format!("{it:?}"))
+                })
+                .unwrap()
+        };
+        assert_eq!(ask("journal_mode"), "Text(\"wal\")");
+        assert_eq!(ask("synchronous"), "Integer(2)");
+    }
+}

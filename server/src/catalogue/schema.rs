@@ -1,0 +1,77 @@
+//! The database's tables, and the pragmas that make its commits durable.
+//!
+//! `user_version` counts the schema's versions: an older one is moved up step by step, a newer one is refused.
+
+use rusqlite::{Connection, TransactionBehavior};
+
+use super::CatalogueError;
+
+/// Step `i` leads from version `i` to version `i + 1`.
+const STEPS: &[&str] = &[V1];
+
+/// `counters` holds what must not repeat when rows are gone: the highest run and epoch of any collected session, and
+/// the number of the last package file.
+const V1: &str = "
+CREATE TABLE counters (
+    name  TEXT PRIMARY KEY,
+    value INTEGER NOT NULL
+) STRICT;
+INSERT INTO counters VALUES ('package', 0), ('collected_run', 0), ('collected_epoch', 0);
+
+CREATE TABLE actors (
+    id                TEXT PRIMARY KEY,
+    create_time_nanos INTEGER NOT NULL
+) STRICT;
+
+CREATE TABLE revisions (
+    actor    TEXT NOT NULL REFERENCES actors (id) ON DELETE CASCADE,
+    revision INTEGER NOT NULL,
+    package  TEXT NOT NULL UNIQUE,
+    n_bytes  INTEGER NOT NULL,
+    crc32c   INTEGER NOT NULL,
+    summary  TEXT NOT NULL,
+    PRIMARY KEY (actor, revision)
+) STRICT;
+
+CREATE TABLE sessions (
+    id                TEXT PRIMARY KEY,
+    display_name      TEXT NOT NULL,
+    actor             TEXT NOT NULL,
+    actor_revision    INTEGER NOT NULL,
+    settings          TEXT NOT NULL,
+    run               INTEGER NOT NULL,
+    epoch             INTEGER NOT NULL,
+    had_publisher     INTEGER NOT NULL,
+    create_time_nanos INTEGER NOT NULL,
+    end_time_nanos    INTEGER,
+    alignment         TEXT
+) STRICT;
+CREATE INDEX sessions_by_actor ON sessions (actor);
+";
+
+/// Sets the connection up and brings the schema to the newest version.
+pub(super) fn prepare(connection: &mut Connection) -> Result<(), CatalogueError> {
+    let found: i64 = connection.pragma_query_value(None, "user_version", |row| row.get(0))?;
+    let known = i64::try_from(STEPS.len()).expect("invariant: few versions");
+    if found > known {
+        return Err(CatalogueError::NewerVersion { found, known });
+    }
+    // WAL with NORMAL would acknowledge before the flush.
+    connection.pragma_update(None, "journal_mode", "wal")?;
+    connection.pragma_update(None, "synchronous", "full")?;
+    connection.pragma_update(None, "foreign_keys", true)?;
+    let done = usize::try_from(found).map_err(|_| CatalogueError::Unreadable {
+        what: "schema version",
+    })?;
+    for (version, step) in STEPS.iter().enumerate().skip(done) {
+        let change = connection.transaction_with_behavior(TransactionBehavior::Immediate)?;
+        change.execute_batch(step)?;
+        change.pragma_update(
+            None,
+            "user_version",
+            i64::try_from(version + 1).expect("invariant: few versions"),
+        )?;
+        change.commit()?;
+    }
+    Ok(())
+}

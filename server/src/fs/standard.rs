@@ -1,0 +1,96 @@
+//! The disk itself.
+
+use std::{
+    ffi::OsString,
+    fs::{self, File, OpenOptions},
+    io::{self, Write as _},
+    path::Path,
+};
+
+use super::Fs;
+
+/// The operating system's file system.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct StdFs;
+
+impl Fs for StdFs {
+    fn create_dir_all(&self, dir: &Path) -> io::Result<()> {
+        fs::create_dir_all(dir)?;
+        refuse_link(dir)
+    }
+
+    fn read(&self, file: &Path) -> io::Result<Vec<u8>> {
+        refuse_link(file)?;
+        fs::read(file)
+    }
+
+    fn write_and_sync(&self, file: &Path, content: &[u8]) -> io::Result<()> {
+        // A temporary file of the same name can only be left over from a crash.
+        self.remove(file)?;
+        let mut new = OpenOptions::new().write(true).create_new(true).open(file)?;
+        new.write_all(content)?;
+        new.sync_all()
+    }
+
+    fn rename(&self, from: &Path, to: &Path) -> io::Result<()> {
+        fs::rename(from, to)
+    }
+
+    fn sync_dir(&self, dir: &Path) -> io::Result<()> {
+        File::open(dir)?.sync_all()
+    }
+
+    fn remove(&self, file: &Path) -> io::Result<()> {
+        match fs::remove_file(file) {
+            Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(()),
+            other => other,
+        }
+    }
+
+    fn list(&self, dir: &Path) -> io::Result<Vec<OsString>> {
+        let mut names = fs::read_dir(dir)?
+            .map(|entry| entry.map(|it| it.file_name()))
+            .collect::<io::Result<Vec<_>>>()?;
+        names.sort();
+        Ok(names)
+    }
+}
+
+/// A link planted in the data directory must not lead out of it (CONTRACTS S-6).
+fn refuse_link(path: &Path) -> io::Result<()> {
+    if fs::symlink_metadata(path)?.is_symlink() {
+        return Err(io::Error::other(
+            "a symbolic link where the server expects its own data",
+        ));
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::fs::write_durably;
+
+    #[test]
+    fn a_file_is_replaced_as_a_whole_and_leaves_no_temporary_one() {
+        let dir = tempfile::tempdir().unwrap();
+        write_durably(&StdFs, dir.path(), "a", b"first").unwrap();
+        write_durably(&StdFs, dir.path(), "a", b"second").unwrap();
+        assert_eq!(StdFs.read(&dir.path().join("a")).unwrap(), b"second");
+        assert_eq!(StdFs.list(dir.path()).unwrap(), ["a"]);
+    }
+
+    #[test]
+    fn a_symbolic_link_is_refused() {
+        let dir = tempfile::tempdir().unwrap();
+        let link = dir.path().join("link");
+        std::os::unix::fs::symlink("/etc/hostname", &link).unwrap();
+        assert!(StdFs.read(&link).is_err());
+    }
+
+    #[test]
+    fn removing_what_is_not_there_is_no_error() {
+        let dir = tempfile::tempdir().unwrap();
+        StdFs.remove(&dir.path().join("nothing")).unwrap();
+    }
+}
