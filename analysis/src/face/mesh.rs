@@ -1,4 +1,14 @@
-//! The facial surface: vertices and triangles.
+//! The facial surface: vertices, triangles, and the closest point of it.
+//!
+//! A hand-marked marker lies near the surface, not on it; it is bound to the closest point, kept as triangle and
+//! barycentric weights (Choe & Ko 2001, section 4.1.1).
+
+mod closest;
+mod neighborhood;
+mod soundness;
+
+pub use closest::SurfacePoint;
+pub use soundness::MeshFlaws;
 
 use crate::space::ModelPoint;
 
@@ -21,5 +31,21 @@ impl FaceMesh {
     /// When `triangle` is not a triangle of this mesh.
     pub fn corners(&self, triangle: usize) -> [ModelPoint; 3] {
         self.triangles[triangle].map(|vertex| self.vertices[vertex as usize])
+    }
+
+    /// Whether a triangle has no area, so that barycentric weights on it mean nothing.
+    ///
+    /// # Panics
+    ///
+    /// When `triangle` is not a triangle of this mesh.
+    pub fn is_degenerate(&self, triangle: usize) -> bool {
+        // A height of a ten-millionth of the longest edge is below what any of our formats can store.
+        const LEAST_HEIGHT_PER_EDGE: f64 = 1e-7;
+        let [a, b, c] = self.corners(triangle).map(|corner| corner.0);
+        let longest_squared = (b - a)
+            .norm_squared()
+            .max((c - b).norm_squared())
+            .max((a - c).norm_squared());
+        (b - a).cross(&(c - a)).norm() <= LEAST_HEIGHT_PER_EDGE * longest_squared
     }
 }
