@@ -1,0 +1,92 @@
+# One command for each thing a person does with this repository; `make check` is exactly what CI runs.
+
+SHELL := bash
+.SHELLFLAGS := -euo pipefail -c
+.DEFAULT_GOAL := help
+.DELETE_ON_ERROR:
+
+# The data bundle that some tests read; they say by name that they were left out when it is not there.
+FRONTALIS_DATA ?= $(abspath ../shared/data)
+export FRONTALIS_DATA
+
+# 0: until Ctrl-C.
+DEMO_SECONDS ?= 0
+NEXTEST_VERSION := 0.9.151
+# Where the demo listens.
+DEMO_LISTEN ?= 127.0.0.1:7400
+
+.PHONY: help
+help: ## This list
+	@awk 'BEGIN {FS = ":.*## "} /^[a-z-]+:.*## / {printf "  make %-12s %s\n", $$1, $$2}' $(MAKEFILE_LIST)
+
+.PHONY: demo
+demo: ## Build (release), start a server and a simulated stage, show the curves; DEMO_SECONDS=10 ends by itself
+	@cargo build --release --quiet --bin frontalis --bin frontalis-server
+	@exec target/release/frontalis demo --listen $(DEMO_LISTEN) --data-dir ./demo-data --seconds $(DEMO_SECONDS)
+
+.PHONY: clean-demo
+clean-demo: ## Forget what the demo stored
+	rm -rf ./demo-data
+
+.PHONY: test
+test: python runner ## Every test there is; ends with the runner's own count
+	cargo test --workspace --doc --quiet
+	@if cargo nextest --version >/dev/null 2>&1; then \
+	  profile=default; [ -d "$(FRONTALIS_DATA)" ] || profile=without-data; \
+	  echo "cargo nextest run --workspace --profile $$profile"; \
+	  cargo nextest run --workspace --profile $$profile; \
+	else \
+	  cargo test --workspace --lib --bins --tests --no-fail-fast; \
+	fi
+
+# The runner is installed once a machine; without it (no network), cargo's own runner does the work.
+.PHONY: runner
+runner:
+	@cargo nextest --version >/dev/null 2>&1 \
+	  || cargo install --locked --quiet cargo-nextest --version $(NEXTEST_VERSION) \
+	  || echo "cargo-nextest could not be installed: cargo test runs the tests, one count a binary"
+
+# The Python client's environment; its tests are left out by name when it cannot be made.
+.PHONY: python
+python:
+	@$(MAKE) --no-print-directory .venv/ready \
+	  || echo "left out: python_client (all tests): python3 with venv and pip is needed to make .venv"
+
+.venv/ready: tests/python/requirements.txt
+	@python3 -m venv .venv
+	@.venv/bin/pip install --quiet --disable-pip-version-check --requirement tests/python/requirements.txt
+	@touch $@
+
+.PHONY: check
+check: fmt clippy doc deny-if-installed test ## Formatting, clippy, rustdoc, supply chain and tests: what CI runs
+
+.PHONY: fmt
+fmt: ## Formatting
+	cargo fmt --all -- --check
+
+.PHONY: clippy
+clippy: ## Lints, warnings denied
+	cargo clippy --workspace --all-targets -- -D warnings
+
+.PHONY: doc
+doc: ## Documentation, warnings denied
+	RUSTDOCFLAGS="-D warnings" cargo doc --workspace --no-deps --document-private-items
+
+.PHONY: deny
+deny: ## Licences, sources and advisories of every dependency, against the pinned snapshot, without a network
+	@cargo deny --version >/dev/null 2>&1 || cargo install --locked cargo-deny
+	@.ci/deny
+
+# Installing cargo-deny costs a cold machine more minutes than the whole build, so CI runs it where it is.
+.PHONY: deny-if-installed
+deny-if-installed:
+	@if cargo deny --version >/dev/null 2>&1; then .ci/deny; \
+	else echo "left out: supply chain (make deny): cargo-deny is not installed"; fi
+
+.PHONY: bench
+bench: ## CPU time of the solve, the stage and the alignment, one thread
+	cargo bench --workspace --benches
+
+.PHONY: bench-load
+bench-load: ## 64 sessions at 120 Hz with a subscriber each, 30 s: losses and latency
+	cargo run --release --package frontalis-tests --bin load
