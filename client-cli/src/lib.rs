@@ -1,1 +1,22 @@
-//! Skeleton.
+//! The client of Frontalis: a capture stage's way in, a renderer's way out.
+//!
+//! | Room | Holds |
+//! | --- | --- |
+//! | [`connection`] | one HTTP/2 connection to a server, with the pings that find a dead peer |
+//! | [`capture_client`] | publishes marker frames; reconnects and resumes so that every frame takes effect once |
+//! | [`curve_client`] | follows a session's curves, newest first or every frame without a hole |
+//! | [`error`] | what a server refused, its reason, and what to do about it |
+//! | [`backoff`] | how long to wait before trying again |
+//! | [`csv`] | curves as a table, the same bytes from a server and from a file |
+
+pub mod backoff;
+pub mod capture_client;
+pub mod connection;
+pub mod csv;
+pub mod curve_client;
+pub mod error;
+#[cfg(test)]
+mod fake_server;
+
+/// The wire types that the clients speak.
+pub use frontalis_proto::v1 as proto;

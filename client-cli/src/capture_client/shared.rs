@@ -1,0 +1,123 @@
+//! What the caller's side and the connection's side of a publication share.
+
+use std::sync::{Mutex, MutexGuard, PoisonError};
+
+use tokio::sync::Notify;
+
+use super::{
+    report::PublishReport,
+    ring::{RingLimits, UnackedRing},
+};
+use crate::{
+    error::ClientError,
+    proto::{PublishResponse, PublishStarted},
+};
+
+/// A std mutex suffices: it is never held across a wait.
+#[derive(Debug)]
+pub(super) struct Shared {
+    state: Mutex<State>,
+    /// There is something to send, or the caller is done.
+    pub work: Notify,
+    /// The ring has room again, or the publication failed.
+    pub room: Notify,
+}
+
+#[derive(Debug)]
+pub(super) struct State {
+    pub ring: UnackedRing,
+    pub report: PublishReport,
+    pub is_closing: bool,
+    pub failure: Option<ClientError>,
+    /// Frames shed on earlier connections; the wire counts from the start of each.
+    shed_before: u64,
+}
+
+impl Shared {
+    pub fn new(limits: RingLimits) -> Self {
+        Self {
+            state: Mutex::new(State {
+                ring: UnackedRing::new(limits),
+                report: PublishReport::default(),
+                is_closing: false,
+                failure: None,
+                shed_before: 0,
+            }),
+            work: Notify::new(),
+            room: Notify::new(),
+        }
+    }
+
+    pub fn lock(&self) -> MutexGuard<'_, State> {
+        // Every change is complete before anything that could panic.
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    pub fn report(&self) -> PublishReport {
+        let state = self.lock();
+        let mut report = state.report.clone();
+        report.lost = state.ring.lost().clone();
+        report.unacknowledged_frames = state.ring.len() as u64;
+        report
+    }
+
+    pub fn fail(&self, failure: ClientError) {
+        self.lock().failure = Some(failure);
+        self.room.notify_waiters();
+    }
+
+    /// The first response of a connection says where the server stands (D-8).
+    pub fn begin_connection(&self, first: &PublishResponse) -> PublishStarted {
+        let started = first.started.unwrap_or_default();
+        let mut state = self.lock();
+        let had_run = state.report.run;
+        if had_run != 0 && started.run != had_run {
+            state.report.new_runs += 1;
+            state.report.accepted_through = 0;
+            state.report.durable_through = 0;
+        }
+        state.report.run = started.run;
+        state.report.epoch = started.epoch;
+        state.shed_before = state.report.shed_frames;
+        let has_through = if first.recording {
+            started.durable_through
+        } else {
+            started.next_expected.saturating_sub(1)
+        };
+        state.settle_through(has_through);
+        state.ring.start_connection();
+        drop(state);
+        self.room.notify_waiters();
+        started
+    }
+
+    /// Rejections first: a frame that was refused is below the watermark of the same response.
+    pub fn take_response(&self, response: PublishResponse) {
+        let mut state = self.lock();
+        for rejected in response.rejected {
+            if !state.ring.settle_rejected(rejected.number) {
+                // It had been acknowledged before its solve failed.
+                state.report.accepted_frames = state.report.accepted_frames.saturating_sub(1);
+            }
+            state.report.reject(rejected);
+        }
+        state.report.shed_frames = state.shed_before + response.shed_frames;
+        let report = &mut state.report;
+        report.accepted_through = report.accepted_through.max(response.accepted_through);
+        report.durable_through = report.durable_through.max(response.durable_through);
+        let safe_through = if response.recording {
+            response.durable_through
+        } else {
+            response.accepted_through
+        };
+        state.settle_through(safe_through);
+        drop(state);
+        self.room.notify_waiters();
+    }
+}
+
+impl State {
+    fn settle_through(&mut self, number: u64) {
+        self.report.accepted_frames += self.ring.settle_through(number);
+    }
+}

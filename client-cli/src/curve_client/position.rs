@@ -1,0 +1,173 @@
+//! Where a subscriber stands in a session's samples, and where it goes on after a cut.
+//!
+//! Completeness is proved from `sequence` alone (CONTRACTS D-2): it grows by exactly one inside a run.
+//! Pure: knows no network and no clock.
+
+use super::{CurveEvent, From};
+use crate::proto::{CurveSample, Gap};
+
+/// The run and the last sample of a subscription to every frame.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub(super) struct Position {
+    run: u64,
+    last_sequence: u64,
+    last_frame: u64,
+    /// The sample after the last is no longer kept.
+    place_is_gone: bool,
+}
+
+impl Position {
+    /// A header arrived; tells of a run that began meanwhile.
+    pub fn enter_run(&mut self, run: u64) -> Option<CurveEvent> {
+        let previous = std::mem::replace(&mut self.run, run);
+        if previous == 0 || previous == run {
+            return None;
+        }
+        *self = Self {
+            run,
+            ..Self::default()
+        };
+        Some(CurveEvent::NewRun {
+            previous,
+            present: run,
+        })
+    }
+
+    /// Where to subscribe again. Without a sample so far there was none when the subscription began, so that the
+    /// oldest is the next.
+    pub fn resume(&self, asked_for: From) -> From {
+        match (self.run, self.last_sequence) {
+            (0, _) => asked_for,
+            _ if self.place_is_gone => From::Oldest,
+            (_, 0) => match asked_for {
+                From::Sequence { .. } => asked_for,
+                From::Now | From::Oldest => From::Oldest,
+            },
+            (run, last) => From::Sequence {
+                run,
+                sequence: last + 1,
+            },
+        }
+    }
+
+    /// Whether a header arrived, on any connection.
+    pub fn has_begun(&self) -> bool {
+        self.run != 0
+    }
+
+    /// The server no longer keeps the next sample: the oldest follows, and its sequence tells what was lost.
+    pub fn lose_place(&mut self) {
+        self.place_is_gone = true;
+    }
+
+    /// The events of one sample: nothing for one already seen, a loss before one that leaves a hole.
+    pub fn sample(&mut self, sample: CurveSample) -> Vec<CurveEvent> {
+        let sequence = sample.sequence;
+        if self.last_sequence != 0 && sequence <= self.last_sequence {
+            return Vec::new();
+        }
+        let mut events = Vec::with_capacity(2);
+        if self.last_sequence != 0 && sequence > self.last_sequence + 1 {
+            events.push(CurveEvent::Lost {
+                first_sequence: self.last_sequence + 1,
+                last_sequence: sequence - 1,
+            });
+        }
+        self.place_is_gone = false;
+        self.last_sequence = sequence;
+        self.last_frame = self.last_frame.max(sample.frame);
+        events.push(CurveEvent::Sample(sample));
+        events
+    }
+
+    /// A gap, unless it was told before: gaps just before a sample are repeated on resumption.
+    pub fn gap(&mut self, gap: Gap) -> Option<CurveEvent> {
+        if gap.last <= self.last_frame {
+            return None;
+        }
+        self.last_frame = gap.last;
+        Some(CurveEvent::Gap(gap))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sample(sequence: u64) -> CurveSample {
+        CurveSample {
+            frame: sequence + 100,
+            sequence,
+            ..CurveSample::default()
+        }
+    }
+
+    #[test]
+    fn goes_on_after_the_last_sample_of_its_run() {
+        let mut position = Position::default();
+        assert_eq!(position.resume(From::Now), From::Now);
+        assert_eq!(position.enter_run(3), None);
+        assert_eq!(position.resume(From::Now), From::Oldest);
+        position.sample(sample(41));
+        let expected = From::Sequence {
+            run: 3,
+            sequence: 42,
+        };
+        assert_eq!(position.resume(From::Now), expected);
+    }
+
+    #[test]
+    fn a_hole_is_reported_exactly_and_a_repetition_not_at_all() {
+        let mut position = Position::default();
+        position.enter_run(1);
+        assert_eq!(position.sample(sample(5)).len(), 1);
+        assert_eq!(position.sample(sample(5)), []);
+        let events = position.sample(sample(9));
+        let lost = CurveEvent::Lost {
+            first_sequence: 6,
+            last_sequence: 8,
+        };
+        assert_eq!(events, [lost, CurveEvent::Sample(sample(9))]);
+    }
+
+    #[test]
+    fn a_place_that_is_gone_goes_on_at_the_oldest_and_tells_what_was_lost() {
+        let mut position = Position::default();
+        position.enter_run(1);
+        position.sample(sample(5));
+        position.lose_place();
+        assert_eq!(position.resume(From::Now), From::Oldest);
+        assert_eq!(position.sample(sample(4)), []);
+        assert_eq!(position.sample(sample(20)).len(), 2);
+        let expected = From::Sequence {
+            run: 1,
+            sequence: 21,
+        };
+        assert_eq!(position.resume(From::Now), expected);
+    }
+
+    #[test]
+    fn a_gap_is_told_once() {
+        let mut position = Position::default();
+        let gap = Gap {
+            first: 3,
+            last: 7,
+            cause: 1,
+        };
+        assert_eq!(position.gap(gap), Some(CurveEvent::Gap(gap)));
+        assert_eq!(position.gap(gap), None);
+    }
+
+    #[test]
+    fn a_new_run_is_reported_and_counts_anew() {
+        let mut position = Position::default();
+        position.enter_run(1);
+        position.sample(sample(500));
+        let new_run = CurveEvent::NewRun {
+            previous: 1,
+            present: 2,
+        };
+        assert_eq!(position.enter_run(2), Some(new_run));
+        assert_eq!(position.sample(sample(1)).len(), 1);
+    }
+}
