@@ -7,4 +7,8 @@ pub mod catalogue;
 pub mod clock;
 pub mod executor;
 pub mod fs;
+pub mod hub;
 pub mod name;
+pub mod service;
+pub mod session;
+pub mod wire;

@@ -1,0 +1,3 @@
+//! The doors of the server: gRPC and plain HTTP.
+
+pub mod grpc;

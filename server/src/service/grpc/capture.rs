@@ -1,0 +1,1 @@
+//! `CaptureService`: frames in.

@@ -1,0 +1,1 @@
+//! `CurveService`: curves out.

@@ -1,0 +1,23 @@
+//! One actor's capture: frames in from at most one publisher, samples out through the hub.
+//!
+//! A session owns its time, its task and its queue; what happens to it cannot reach another session.
+//! Other layers see [`SessionRegistry`], [`SessionHandle`] and [`Publication`], and read its [`SessionEvent`]s.
+
+mod error;
+mod frame;
+mod handle;
+mod publication;
+mod registry;
+mod settings;
+mod status;
+
+pub use error::SessionError;
+pub use frame::{IncomingFrame, Rejection};
+pub use handle::SessionHandle;
+pub use publication::{Grant, Granted, Ingest, Offer, Publication, PublishEnd, Wait, Watermarks};
+pub use registry::SessionRegistry;
+pub use settings::{
+    RestoredAlignment, SessionEvent, SessionLimits, SessionSettings, SessionSpec, SessionUpdate,
+    StreamShape,
+};
+pub use status::{AlignmentReport, ControlRange, Latency, SessionStatus, StageLatency};

@@ -1,0 +1,73 @@
+//! Why a session does not do what it was asked.
+
+use std::time::Duration;
+
+use crate::name::SessionId;
+
+/// Refusals of sessions and of their registry.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum SessionError {
+    /// There is no such session.
+    #[error("there is no session of this name")]
+    NotFound,
+    /// The id is in use.
+    #[error("session {id} exists")]
+    Exists {
+        /// The id.
+        id: SessionId,
+    },
+    /// The server has all the sessions it may have.
+    #[error("the server has {limit} sessions, the most it may have")]
+    RegistryFull {
+        /// The limit.
+        limit: usize,
+    },
+    /// Another publisher owns the session.
+    #[error("publisher {owner} owns the session; it is free {} ms after the owner falls silent", free_after.as_millis())]
+    Owned {
+        /// The owner.
+        owner: String,
+        /// How much longer the lease lives if the owner stays silent.
+        free_after: Duration,
+    },
+    /// Another grant came first.
+    #[error("epoch {epoch} is older than the session's epoch {current}")]
+    Fenced {
+        /// The epoch that was to be granted.
+        epoch: u64,
+        /// The epoch in force.
+        current: u64,
+    },
+    /// A marker name stands twice in the publisher's list.
+    #[error("marker {index} repeats the name of an earlier one")]
+    DuplicateMarker {
+        /// Position of the second.
+        index: usize,
+    },
+    /// None of the publisher's markers is one of the actor's.
+    #[error("none of the {n_streamed} streamed markers is one of the actor's {n_known}")]
+    UnknownMarkers {
+        /// How many were named.
+        n_streamed: usize,
+        /// How many the actor has.
+        n_known: usize,
+    },
+    /// Too many requests wait for the session.
+    #[error("{limit} requests wait for the session, the most that may")]
+    Busy {
+        /// The limit.
+        limit: usize,
+    },
+    /// The session ended.
+    #[error("the session ended")]
+    Ended,
+    /// The session is broken.
+    #[error("the session failed: {reason}")]
+    Failed {
+        /// Why.
+        reason: String,
+    },
+    /// The server shuts down.
+    #[error("the server is shutting down")]
+    Draining,
+}

@@ -1,0 +1,115 @@
+//! A publisher's hold on a session: frames in, watermarks out.
+
+use frontalis_analysis::marker_analysis::alignment::AlignmentError;
+
+use super::{
+    frame::{IncomingFrame, Rejection},
+    settings::StreamShape,
+};
+use crate::{clock::ServerClock, name::PublisherId};
+
+/// What happens when frames come faster than they are solved.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ingest {
+    /// Newest matters: the oldest waiting frame is shed.
+    Live,
+    /// Every frame matters: the publisher waits.
+    Lossless,
+}
+
+/// What a publisher asks for.
+#[derive(Clone, Debug)]
+pub struct Grant {
+    /// Who asks.
+    pub publisher: PublisherId,
+    /// Whether it may push another publisher out.
+    pub takeover: bool,
+    /// The grant's number, durable before it is used here.
+    pub epoch: u64,
+    /// Unit of the coordinates.
+    pub unit: frontalis_analysis::space::LengthUnit,
+    /// Markers in the order of the coordinates; empty: the actor's own order.
+    pub marker_names: Vec<String>,
+    /// What happens when the session cannot keep up.
+    pub ingest: Ingest,
+    /// Declared rate: finite, positive.
+    pub rate_hz: f64,
+}
+
+/// What a publisher was given.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Granted {
+    /// Number of the grant.
+    pub epoch: u64,
+    /// First number that the session does not have; 0 in a run without frames.
+    pub next_expected: u64,
+    /// The run.
+    pub run: u64,
+    /// Shape of the stream, with the names filled in.
+    pub shape: StreamShape,
+}
+
+/// What became of a frame that was offered.
+#[derive(Debug)]
+pub enum Offer {
+    /// Taken, now or in an earlier send of the same frame.
+    Taken,
+    /// Not used.
+    Rejected(Rejection),
+    /// Not taken yet: wait, then offer it again.
+    Wait(IncomingFrame, Wait),
+}
+
+/// What an offer waits for.
+#[derive(Clone, Copy, Debug)]
+pub enum Wait {
+    /// Room in the queue.
+    Space,
+    /// The session's rate limit.
+    Until(tokio::time::Instant),
+}
+
+/// Why a publication ended before its publisher ended it.
+#[derive(Clone, Debug, PartialEq)]
+pub enum PublishEnd {
+    /// A newer grant took the session.
+    Fenced {
+        /// The grant that was lost.
+        epoch: u64,
+        /// The grant in force.
+        current: u64,
+    },
+    /// The neutral face could not be aligned.
+    NotAligned(AlignmentError),
+    /// Too many frames in a row could not be used.
+    TooManyRejects {
+        /// How many.
+        n_rejects: u32,
+    },
+    /// The session ended.
+    Ended,
+    /// The session broke.
+    Failed {
+        /// Why.
+        reason: String,
+    },
+    /// The server shuts down.
+    Draining,
+}
+
+/// How far a publisher's frames got. Neither number falls.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Watermarks {
+    /// Every usable frame up to here was taken.
+    pub accepted_through: u64,
+    /// Every usable frame up to here is on stable storage; 0 while nothing is recorded.
+    pub durable_through: u64,
+    /// Frames taken but not solved.
+    pub shed_frames: u64,
+}
+
+/// A publisher's hold on a session. Dropping it keeps the lease until it times out; [`Self::close`] gives it back.
+pub struct Publication {
+    #[expect(dead_code, reason = "signature first")]
+    clock: ServerClock,
+}

@@ -1,0 +1,94 @@
+//! The state of a session in figures, for people and programs that watch over it.
+
+use crate::hub::{SessionState, SubscriberStatus};
+
+/// A session's figures at one moment.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct SessionStatus {
+    /// The state.
+    pub state: SessionState,
+    /// Why the session failed.
+    pub failure: Option<String>,
+    /// The run.
+    pub run: u64,
+    /// Largest accepted frame number; 0 before the first.
+    pub last_frame: u64,
+    /// Sequence of the newest sample; 0 before the first.
+    pub last_sequence: u64,
+    /// Accepted frames a second, measured over the last seconds.
+    pub frame_rate_hz: f64,
+    /// Frames accepted.
+    pub frames_received: u64,
+    /// Frames refused, late ones included.
+    pub frames_rejected: u64,
+    /// Frames refused because their number had been passed.
+    pub frames_late: u64,
+    /// Frames that were sent again.
+    pub frames_duplicate: u64,
+    /// Frames taken but not solved, because newer ones waited.
+    pub frames_shed: u64,
+    /// Numbers that the capture system skipped.
+    pub frames_missing: u64,
+    /// Coordinate triples in which only one or two were missing.
+    pub markers_partial: u64,
+    /// The alignment in use.
+    pub alignment: Option<AlignmentReport>,
+    /// Why the neutral face could not be aligned: `UNITS_SUSPECT`, `MIRRORED`, ...
+    pub alignment_problem: Option<&'static str>,
+    /// Time spent in each stage.
+    pub latencies: Vec<StageLatency>,
+    /// Everyone who listens.
+    pub subscribers: Vec<SubscriberStatus>,
+    /// Revision of the actor in use.
+    pub actor_revision: u32,
+    /// Range seen per control, in activation order.
+    pub ranges: Vec<ControlRange>,
+    /// Streamed markers that the actor does not have.
+    pub unknown_markers: Vec<String>,
+    /// Who owns the session.
+    pub publisher: Option<String>,
+}
+
+/// How well the neutral face was found.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AlignmentReport {
+    /// Model centimeters per performance centimeter.
+    pub scale: f64,
+    /// Root mean square distance of the aligned markers from the mesh, centimeters.
+    pub rms_residual_cm: f64,
+    /// Rounds of similarity and projection.
+    pub iterations: u32,
+    /// Markers that took part.
+    pub n_markers: usize,
+}
+
+/// One stage's times.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StageLatency {
+    /// `queued`, `solved`, `published`, or `total` from frame received to sample published.
+    pub stage: &'static str,
+    /// Over the last thousand samples.
+    pub latency: Latency,
+}
+
+/// A distribution in three figures.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Latency {
+    /// Median, microseconds.
+    pub p50_micros: f64,
+    /// 99th percentile, microseconds.
+    pub p99_micros: f64,
+    /// Largest, microseconds.
+    pub max_micros: f64,
+}
+
+/// What one control went through.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ControlRange {
+    /// Name of the muscle.
+    pub control: String,
+    /// Smallest activation.
+    pub min: f64,
+    /// Largest activation.
+    pub max: f64,
+}

@@ -1,0 +1,1 @@
+//! common on the wire.

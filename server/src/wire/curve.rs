@@ -1,0 +1,1 @@
+//! curve on the wire.
