@@ -3,10 +3,21 @@
 use std::sync::Arc;
 
 use crate::{
-    curve::CurveSample,
+    curve::{CurveSample, MarkerTrace, Quality, RegionReport},
     face::{actor::Actor, marker::MarkerFrame},
-    marker_analysis::alignment::{Alignment, AlignmentError},
+    marker_analysis::{
+        alignment::{Alignment, AlignmentError},
+        contraction::{ContractionSolver, RegionOutcome},
+        neutral,
+    },
+    space::LengthUnit,
 };
+
+/// A neutral frame shows at least this many markers.
+const MARKERS_IN_A_NEUTRAL_FRAME: usize = 4;
+
+/// Frames kept beyond the neutral frames wanted, while too few of them show a face: then the alignment has failed.
+const UNUSABLE_FRAMES_KEPT: usize = 512;
 
 /// How the regions of the face share one frame's problem.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -52,12 +63,12 @@ pub enum Progress {
     Waiting,
     /// Kept as a neutral frame; its sample follows when the alignment is known.
     Collecting {
-        /// Neutral frames kept so far.
+        /// Frames kept so far that show a face.
         collected: usize,
         /// Neutral frames wanted.
         wanted: usize,
     },
-    /// The alignment is now known; the samples of all neutral frames were appended, in order.
+    /// The alignment is now known; the samples of all kept frames were appended, in order.
     Aligned,
     /// One sample was appended.
     Solved,
@@ -66,55 +77,247 @@ pub enum Progress {
 /// Markers to muscle curves, one frame at a time.
 pub struct MarkerAnalyzer {
     actor: Arc<Actor>,
+    settings: MarkerSettings,
+    unit: LengthUnit,
+    rate_hz: f64,
+    stage: Stage,
+}
+
+enum Stage {
+    /// No alignment, and none asked for.
+    Waiting,
+    /// Frames since the start or the last request, usable or not, in order.
+    Collecting(Vec<MarkerFrame>),
+    Solving(Box<Solving>),
+}
+
+struct Solving {
+    alignment: Alignment,
+    solver: ContractionSolver,
+    held_frames: u32,
 }
 
 impl MarkerAnalyzer {
-    /// Starts without an alignment; `rate_hz` is the declared rate of the capture (finite, positive).
-    pub fn new(actor: Arc<Actor>, settings: MarkerSettings, rate_hz: f64) -> Self {
-        unimplemented!()
+    /// Starts without an alignment; `rate_hz` is the declared rate of the capture (finite, positive), `unit` its unit.
+    pub fn new(
+        actor: Arc<Actor>,
+        settings: MarkerSettings,
+        unit: LengthUnit,
+        rate_hz: f64,
+    ) -> Self {
+        let stage = if settings.align_on_request {
+            Stage::Waiting
+        } else {
+            Stage::Collecting(Vec::new())
+        };
+        Self {
+            actor,
+            settings,
+            unit,
+            rate_hz,
+            stage,
+        }
     }
 
-    /// Starts from an alignment found before, with this actor or an earlier revision of it.
+    /// Starts from an alignment found before, on this revision of the actor.
     pub fn resume(
         actor: Arc<Actor>,
         settings: MarkerSettings,
+        unit: LengthUnit,
         rate_hz: f64,
         alignment: Alignment,
     ) -> Self {
-        unimplemented!()
+        let solving = Solving::new(&actor, &settings, rate_hz, alignment);
+        Self {
+            actor,
+            settings,
+            unit,
+            rate_hz,
+            stage: Stage::Solving(Box::new(solving)),
+        }
     }
 
     /// Takes one frame, markers in the actor's order; appends the samples that are now known to `samples`.
     ///
     /// # Errors
     ///
-    /// When the collected neutral frames cannot be aligned: they are dropped, and collection starts over
+    /// When the collected neutral frames cannot be aligned: they are dropped, without samples, and collection starts over
     /// (or waits for the next request, with `align_on_request`).
+    ///
+    /// # Panics
+    ///
+    /// When the frame has not one position a marker of the actor: the boundary has made sure of that.
     pub fn push(
         &mut self,
         frame: MarkerFrame,
         samples: &mut Vec<CurveSample>,
     ) -> Result<Progress, AlignmentError> {
-        unimplemented!()
+        match &mut self.stage {
+            Stage::Waiting => Ok(Progress::Waiting),
+            Stage::Collecting(frames) => {
+                frames.push(frame);
+                self.try_align(samples)
+            }
+            Stage::Solving(solving) => {
+                samples.push(solving.solve(&frame));
+                Ok(Progress::Solved)
+            }
+        }
+    }
+
+    fn try_align(&mut self, samples: &mut Vec<CurveSample>) -> Result<Progress, AlignmentError> {
+        let Stage::Collecting(frames) = &mut self.stage else {
+            return Ok(Progress::Waiting);
+        };
+        let wanted = self.settings.neutral_frames.max(1);
+        let usable: Vec<_> = frames
+            .iter()
+            .filter(|it| shows_a_face(it))
+            .map(|it| it.positions.as_slice())
+            .collect();
+        if usable.len() < wanted && frames.len() < wanted + UNUSABLE_FRAMES_KEPT {
+            return Ok(Progress::Collecting {
+                collected: usable.len(),
+                wanted,
+            });
+        }
+        let mut mean = neutral::average(&usable);
+        mean.resize(self.actor.markers().len(), None);
+        let kept = std::mem::take(frames);
+        let alignment = match Alignment::find(&self.actor, &mean, self.unit) {
+            Ok(alignment) => alignment,
+            Err(error) => {
+                if self.settings.align_on_request {
+                    self.stage = Stage::Waiting;
+                }
+                return Err(error);
+            }
+        };
+        let mut solving = Solving::new(&self.actor, &self.settings, self.rate_hz, alignment);
+        samples.extend(kept.iter().map(|frame| solving.solve(frame)));
+        self.stage = Stage::Solving(Box::new(solving));
+        Ok(Progress::Aligned)
     }
 
     /// Takes the next usable frames as the neutral face again. The old alignment is forgotten at once.
-    pub fn recenter(&mut self) {}
+    ///
+    /// Frames that were collected for an alignment that is not known yet are dropped, without samples.
+    pub fn recenter(&mut self) {
+        self.stage = Stage::Collecting(Vec::new());
+    }
 
     /// Changes settings or moves to another revision of the actor, between two frames.
     /// The alignment is kept, its bindings carried over to the new mesh.
-    pub fn update(&mut self, actor: Arc<Actor>, settings: MarkerSettings) {}
+    pub fn update(&mut self, actor: Arc<Actor>, settings: MarkerSettings) {
+        if let Stage::Solving(solving) = &mut self.stage {
+            let alignment = solving.alignment.carried_over(&self.actor, &actor);
+            let mut next = Solving::new(&actor, &settings, self.rate_hz, alignment);
+            next.solver.continue_from(&solving.solver);
+            next.held_frames = solving.held_frames;
+            **solving = next;
+        }
+        self.actor = actor;
+        self.settings = settings;
+    }
 
     /// The declared rate of the capture, when a new publisher declares another.
-    pub fn set_rate_hz(&mut self, rate_hz: f64) {}
+    pub fn set_rate_hz(&mut self, rate_hz: f64) {
+        self.rate_hz = rate_hz;
+        if let Stage::Solving(solving) = &mut self.stage {
+            solving.solver.set_rate_hz(rate_hz);
+        }
+    }
 
     /// The alignment in use.
     pub fn alignment(&self) -> Option<&Alignment> {
-        None
+        match &self.stage {
+            Stage::Solving(solving) => Some(&solving.alignment),
+            _ => None,
+        }
     }
 
     /// The actor in use.
     pub fn actor(&self) -> &Arc<Actor> {
         &self.actor
     }
+}
+
+fn shows_a_face(frame: &MarkerFrame) -> bool {
+    frame.positions.iter().flatten().count() >= MARKERS_IN_A_NEUTRAL_FRAME
+}
+
+impl Solving {
+    fn new(actor: &Actor, settings: &MarkerSettings, rate_hz: f64, alignment: Alignment) -> Self {
+        Self {
+            solver: ContractionSolver::new(actor, &alignment, settings, rate_hz),
+            alignment,
+            held_frames: 0,
+        }
+    }
+
+    fn solve(&mut self, frame: &MarkerFrame) -> CurveSample {
+        let solver = &mut self.solver;
+        solver.solve(&frame.positions);
+        let regions = solver.regions().map(|(region, outcome)| RegionReport {
+            region,
+            marker_error_cm: outcome.marker_error_cm,
+            n_markers: outcome.visible,
+            quality: region_quality(&outcome),
+            held_reason: outcome.held,
+            quality_fraction: outcome.visible as f64 / outcome.expected.max(1) as f64,
+        });
+        let quality = overall_quality(regions.map(|it| it.quality));
+        self.held_frames = match quality {
+            Quality::Held => self.held_frames.saturating_add(1),
+            Quality::Solved | Quality::Partial => 0,
+        };
+        CurveSample {
+            frame: frame.index,
+            capture_time_nanos: frame.capture_time_nanos,
+            activations: solver.activations(),
+            quality,
+            held_frames: self.held_frames,
+            regions,
+            head: solver.head(),
+            unobserved: solver.unobserved(),
+            markers: trace(solver),
+            kkt_residual: solver.kkt_residual(),
+        }
+    }
+}
+
+fn region_quality(outcome: &RegionOutcome) -> Quality {
+    if outcome.held.is_some() {
+        Quality::Held
+    } else if outcome.visible < outcome.expected {
+        Quality::Partial
+    } else {
+        Quality::Solved
+    }
+}
+
+fn overall_quality([upper, lower]: [Quality; 2]) -> Quality {
+    if upper == lower {
+        upper
+    } else {
+        Quality::Partial
+    }
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "the trace is for display, in f32 as it is sent"
+)]
+fn trace(solver: &ContractionSolver) -> MarkerTrace {
+    let mut trace = MarkerTrace::default();
+    for (marker, observed, reproduced) in solver.visible_markers() {
+        trace.markers.push(marker);
+        trace
+            .observed_cm
+            .extend(observed.iter().map(|it| *it as f32));
+        trace
+            .reproduced_cm
+            .extend(reproduced.iter().map(|it| *it as f32));
+    }
+    trace
 }

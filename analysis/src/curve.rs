@@ -59,7 +59,7 @@ pub struct RegionReport {
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct MarkerTrace {
     /// Indices into the actor's markers of those seen in this frame.
-    pub markers: Vec<u16>,
+    pub markers: Vec<usize>,
     /// x y z of each, centimeters.
     pub observed_cm: Vec<f32>,
     /// x y z of each, centimeters.
@@ -84,7 +84,7 @@ pub struct CurveSample {
     /// The head's motion since the neutral pose; `None` when it is not tracked or not known in this frame.
     pub head: Option<HeadPose>,
     /// Muscles that the visible markers cannot determine in this frame: they decay from their last value.
-    pub unobserved: Vec<u16>,
+    pub unobserved: Vec<usize>,
     /// The markers behind the sample.
     pub markers: MarkerTrace,
     /// KKT residual of the solution, relative to the largest diagonal entry of Q; 0 when held.

@@ -1,3 +1,8 @@
 //! Markers to contractions (Choe & Ko 2001, section 4.1).
 
 pub mod alignment;
+pub mod contraction;
+mod evidence;
+mod head_motion;
+mod marker_model;
+pub mod neutral;

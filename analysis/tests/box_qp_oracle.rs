@@ -59,7 +59,13 @@ fn interior_point(problem: &Problem) -> Vec<f64> {
     let full: Vec<Vec<f64>> = (0..m)
         .map(|i| {
             (0..m)
-                .map(|j| if j >= i { problem.hessian[j * m + i] } else { 0.0 })
+                .map(|j| {
+                    if j >= i {
+                        problem.hessian[j * m + i]
+                    } else {
+                        0.0
+                    }
+                })
                 .collect()
         })
         .collect();
@@ -102,7 +108,9 @@ fn agrees_with_an_interior_point_solver_on_a_thousand_random_problems() {
         for i in 0..problem.m {
             qp.set_bounds(i, 0.0, problem.upper);
         }
-        let mut x: Vec<f64> = (0..problem.m).map(|_| rng.random_range(-0.2..1.2)).collect();
+        let mut x: Vec<f64> = (0..problem.m)
+            .map(|_| rng.random_range(-0.2..1.2))
+            .collect();
         let report = qp.solve(&problem.c, &mut x).unwrap();
         largest_kkt = largest_kkt.max(report.kkt_residual);
         for (ours, theirs) in x.iter().zip(interior_point(&problem)) {

@@ -1,9 +1,32 @@
 //! Coordinate alignment of a performance to the actor's neutral face (Choe & Ko 2001, section 4.1.1).
+//!
+//! Finds s, R, t of ᴹp = s R ᴾp + t from pairs of real and virtual markers, in closed form; projects the aligned markers
+//! onto the surface along its normal, takes the feet as the new virtual markers, and repeats until they stand still.
+//! The feet are kept as triangle and barycentric weights.
 
 use crate::{
-    face::marker::VirtualMarker,
-    space::{LengthUnit, Similarity},
+    face::{actor::Actor, marker::VirtualMarker, region::FaceRegion},
+    numeric::similarity_fit::{Fit, Scale, fit},
+    space::{LengthUnit, PerformancePoint, Similarity},
 };
+
+/// Rounds of fit and projection; sliding along a smooth surface is slow, so it is cut off.
+const ROUNDS: u32 = 30;
+
+/// The virtual markers stand still when none moves further than this in a round, centimeters.
+const STILL_CM: f64 = 1e-4;
+
+/// How far a marker may be projected from where the artist put it, centimeters along the surface.
+const PROJECTION_RADIUS_CM: f64 = 1.5;
+
+/// Extent of a face's markers, centimeters (BAD_INPUT A17).
+const FACE_EXTENT_CM: std::ops::RangeInclusive<f64> = 5.0..=60.0;
+
+/// Own markers of each region that the neutral frames must show (BAD_INPUT C5).
+const MARKERS_PER_REGION: usize = 4;
+
+/// A mirror image's smallest singular value is this share of the second, or more; a flat set says nothing.
+const MIRRORED: f64 = -0.02;
 
 /// Where the capture system's axes lie on the actor, and where each marker sits on the mesh.
 #[derive(Clone, Debug, PartialEq)]
@@ -18,27 +41,19 @@ pub struct Alignment {
     pub iterations: u32,
 }
 
-impl Alignment {
-    /// Markers that took part.
-    pub fn n_markers(&self) -> usize {
-        self.bindings.iter().flatten().count()
-    }
-}
-
 /// Why the neutral frames could not be aligned.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum AlignmentError {
     /// The face's extent is not that of a face in the declared unit.
     #[error(
-        "the neutral markers span {extent_m:.4} m, a face spans 0.05 to 0.60 m: the coordinates are probably in {likely}"
+        "the neutral markers span {extent_m:.4} m, a face spans 0.05 to 0.60 m: the coordinates are {}",
+        likely.map_or("not in millimeters, centimeters or meters".to_owned(), |it| format!("probably in {}", it.symbol()))
     )]
     UnitsSuspect {
         /// Measured extent, in meters as declared.
         extent_m: f64,
-        /// Symbol of the unit in which the extent would be plausible, or "another unit".
-        likely: &'static str,
-        /// The unit, when one fits, relative to the declared one's centimeters.
-        unit: Option<LengthUnit>,
+        /// The unit in which the extent would be a face's.
+        likely: Option<LengthUnit>,
     },
     /// The markers fit the face only mirrored.
     #[error(
@@ -46,12 +61,207 @@ pub enum AlignmentError {
     )]
     Mirrored,
     /// Too few markers of a region were seen in the neutral frames.
-    #[error("too few markers in the neutral frames: {}", missing.join(", "))]
+    #[error(
+        "the neutral frames show {found} markers of the {} region, {MARKERS_PER_REGION} are needed; never seen: {}",
+        region.name(),
+        missing.join(", ")
+    )]
     NeutralIncomplete {
-        /// Names of the markers never seen.
+        /// The region.
+        region: FaceRegion,
+        /// Its own markers that were seen.
+        found: usize,
+        /// Names of the markers, of any region, never seen.
         missing: Vec<String>,
     },
-    /// The markers do not span space: identical or collinear.
+    /// The markers do not span space: identical or on a line.
     #[error("the neutral markers are identical or lie on a line")]
     Degenerate,
+}
+
+impl Alignment {
+    /// Aligns the mean neutral markers, one entry a marker of the actor, to the actor's face.
+    ///
+    /// `unit` is the unit that the capture declared; it only serves the error that names the likely one.
+    ///
+    /// # Errors
+    ///
+    /// When too few markers were seen, they do not span a face, or span a mirrored one.
+    pub fn find(
+        actor: &Actor,
+        neutral: &[Option<PerformancePoint>],
+        unit: LengthUnit,
+    ) -> Result<Self, AlignmentError> {
+        check_complete(actor, neutral)?;
+        check_extent(neutral, unit)?;
+        let mut bindings: Vec<Option<VirtualMarker>> = actor
+            .virtual_markers()
+            .iter()
+            .zip(neutral)
+            .map(|(hand_marked, seen)| seen.map(|_| *hand_marked))
+            .collect();
+        let reachable: Vec<Vec<usize>> = bindings
+            .iter()
+            .map(|it| {
+                it.map_or(Vec::new(), |it| {
+                    actor.mesh().neighborhood(it.triangle, PROJECTION_RADIUS_CM)
+                })
+            })
+            .collect();
+        let mut similarity = fit_similarity(actor, neutral, &bindings)?;
+        let mut iterations = 1;
+        while iterations < ROUNDS {
+            let moved_cm = project(actor, neutral, &similarity, &reachable, &mut bindings);
+            similarity = fit_similarity(actor, neutral, &bindings)?;
+            iterations += 1;
+            if moved_cm < STILL_CM {
+                break;
+            }
+        }
+        Ok(Self {
+            rms_residual_cm: rms_residual(actor, neutral, &similarity, &bindings),
+            model_from_performance: similarity,
+            bindings,
+            iterations,
+        })
+    }
+
+    /// Markers that took part.
+    pub fn n_markers(&self) -> usize {
+        self.bindings.iter().flatten().count()
+    }
+
+    /// The same alignment on another revision of the actor: where the mesh is another, each marker moves to the closest
+    /// point of it.
+    pub fn carried_over(&self, from: &Actor, to: &Actor) -> Self {
+        if from.mesh().triangles == to.mesh().triangles {
+            return self.clone();
+        }
+        let carry = |binding: VirtualMarker| {
+            let position = binding.position(from.mesh());
+            to.mesh()
+                .closest_point(position, |_| true)
+                .map(|it| it.place)
+        };
+        let bindings = self.bindings.iter().map(|it| it.and_then(carry)).collect();
+        Self {
+            bindings,
+            ..self.clone()
+        }
+    }
+}
+
+fn check_complete(
+    actor: &Actor,
+    neutral: &[Option<PerformancePoint>],
+) -> Result<(), AlignmentError> {
+    let seen = || actor.markers().iter().zip(neutral);
+    for region in FaceRegion::ALL {
+        let own = || seen().filter(|(it, _)| it.region == region && !it.head_fixed);
+        let found = own().filter(|(_, position)| position.is_some()).count();
+        let moved = |it: &crate::face::muscle::Muscle| it.region == region;
+        if found < MARKERS_PER_REGION && actor.muscle_set().muscles().iter().any(moved) {
+            let missing = seen()
+                .filter(|(_, position)| position.is_none())
+                .map(|(it, _)| it.name.clone())
+                .collect();
+            return Err(AlignmentError::NeutralIncomplete {
+                region,
+                found,
+                missing,
+            });
+        }
+    }
+    Ok(())
+}
+
+fn check_extent(
+    neutral: &[Option<PerformancePoint>],
+    unit: LengthUnit,
+) -> Result<(), AlignmentError> {
+    let seen = || neutral.iter().flatten();
+    let extent_cm = seen()
+        .flat_map(|a| seen().map(move |b| (a.0 - b.0).norm()))
+        .fold(0.0, f64::max);
+    if FACE_EXTENT_CM.contains(&extent_cm) {
+        return Ok(());
+    }
+    if extent_cm <= 0.0 {
+        return Err(AlignmentError::Degenerate);
+    }
+    let as_declared = extent_cm / unit.centimeters();
+    let likely = [
+        LengthUnit::Millimeter,
+        LengthUnit::Centimeter,
+        LengthUnit::Meter,
+    ]
+    .into_iter()
+    .find(|it| FACE_EXTENT_CM.contains(&(as_declared * it.centimeters())));
+    Err(AlignmentError::UnitsSuspect {
+        extent_m: extent_cm / 100.0,
+        likely,
+    })
+}
+
+/// The closed-form similarity between the real markers and their present virtual markers.
+fn fit_similarity(
+    actor: &Actor,
+    neutral: &[Option<PerformancePoint>],
+    bindings: &[Option<VirtualMarker>],
+) -> Result<Similarity, AlignmentError> {
+    let pairs = neutral.iter().zip(bindings).filter_map(|(real, binding)| {
+        Some((1.0, (*real)?.0, (*binding)?.position(actor.mesh()).0))
+    });
+    let Fit {
+        scale,
+        rotation,
+        translation,
+        handedness,
+    } = fit(pairs, Scale::Free).ok_or(AlignmentError::Degenerate)?;
+    if handedness < MIRRORED {
+        return Err(AlignmentError::Mirrored);
+    }
+    Ok(Similarity {
+        scale,
+        rotation,
+        translation_cm: translation,
+    })
+}
+
+/// Moves every virtual marker to the foot of its real one on the surface; returns the largest move, centimeters.
+fn project(
+    actor: &Actor,
+    neutral: &[Option<PerformancePoint>],
+    similarity: &Similarity,
+    reachable: &[Vec<usize>],
+    bindings: &mut [Option<VirtualMarker>],
+) -> f64 {
+    let mesh = actor.mesh();
+    let mut largest_cm = 0.0_f64;
+    for ((real, binding), triangles) in neutral.iter().zip(bindings).zip(reachable) {
+        let (Some(real), Some(binding)) = (real, binding) else {
+            continue;
+        };
+        let aligned = similarity.to_model(*real);
+        if let Some(foot) = mesh.closest_point_among(aligned, triangles.iter().copied()) {
+            let before = binding.position(mesh);
+            largest_cm = largest_cm.max((foot.position.0 - before.0).norm());
+            *binding = foot.place;
+        }
+    }
+    largest_cm
+}
+
+fn rms_residual(
+    actor: &Actor,
+    neutral: &[Option<PerformancePoint>],
+    similarity: &Similarity,
+    bindings: &[Option<VirtualMarker>],
+) -> f64 {
+    let squares = neutral.iter().zip(bindings).filter_map(|(real, binding)| {
+        let aligned = similarity.to_model((*real)?);
+        Some((aligned.0 - (*binding)?.position(actor.mesh()).0).norm_squared())
+    });
+    let (sum, count) = squares.fold((0.0, 0.0), |(sum, count), it| (sum + it, count + 1.0));
+    (sum / f64::max(count, 1.0)).sqrt()
 }

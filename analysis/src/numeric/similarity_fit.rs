@@ -88,7 +88,8 @@ fn procrustes(covariance: Matrix3<f64>) -> Option<(UnitQuaternion<f64>, Vector3<
         1.0
     };
     let rotation = u * Matrix3::from_diagonal(&Vector3::new(1.0, 1.0, sign)) * v_t;
-    let rotation = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(rotation));
+    let rotation =
+        UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(rotation));
     Some((rotation, values, sign))
 }
 

@@ -1,0 +1,479 @@
+//! Contractions of all muscles from one frame of markers (Choe & Ko 2001, section 4.1.2).
+//!
+//! Displacements d = aligned markers − virtual markers, in model space; the contractions minimize |d − Dx|² within their
+//! bounds, a box QP with Q = DᵀD and c = Dᵀd.
+//! Occluded markers leave the sums; a region that shows too little is held, a muscle whose markers are hidden decays.
+
+use nalgebra::Vector3;
+
+use super::{
+    alignment::Alignment,
+    evidence::{Evidence, Part, gram},
+    head_motion::{JointProblem, RIDGE, Stabilizer},
+    marker_model::MarkerModel,
+};
+use crate::{
+    analyzer::{MarkerSettings, RegionMode},
+    curve::HeldReason,
+    face::{actor::Actor, region::FaceRegion},
+    numeric::box_qp::BoxQp,
+    space::{HeadPose, PerformancePoint, Similarity},
+};
+
+/// An unobserved muscle decays by 1/e in this time.
+const UNOBSERVED_DECAY_SECS: f64 = 0.2;
+
+/// After a longer time without a solved frame the head's pose is fitted anew.
+const POSE_LOST_SECS: f64 = 0.3;
+
+/// Upper bound of a contraction, and with exaggeration.
+const FULL: f64 = 1.0;
+const EXAGGERATED: f64 = 2.0;
+
+/// What one region showed in the frame that was solved last.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct RegionOutcome {
+    /// Why the region stands still.
+    pub held: Option<HeldReason>,
+    /// Its own markers that were seen.
+    pub visible: usize,
+    /// Its own markers that the actor has.
+    pub expected: usize,
+    /// Mean of |observed − reproduced| over those seen, centimeters; 0 when held.
+    pub marker_error_cm: f64,
+}
+
+/// Solves frame after frame, each warm from the one before.
+#[derive(Clone, Debug)]
+pub struct ContractionSolver {
+    model: MarkerModel,
+    model_from_performance: Similarity,
+    region_mode: RegionMode,
+    stabilize_head: bool,
+    upper_bound: f64,
+    rate_hz: f64,
+
+    /// Contractions in the solver's order.
+    x: Vec<f64>,
+    motion: Stabilizer,
+    /// Frames since the motion was last found; `None` before the first.
+    frames_since_pose: Option<u64>,
+    head_known: bool,
+    regions: [RegionOutcome; 2],
+    kkt_residual: f64,
+
+    evidence: Option<Evidence>,
+    joint: JointProblem,
+    whole: BoxQp,
+    apart: [BoxQp; 2],
+
+    visible: Vec<bool>,
+    aligned: Vec<Vector3<f64>>,
+    stabilized: Vec<Vector3<f64>>,
+    reproduced: Vec<f64>,
+    linear: Vec<f64>,
+}
+
+impl ContractionSolver {
+    /// A solver at rest. `rate_hz` is the declared rate of the capture: finite, positive.
+    pub fn new(
+        actor: &Actor,
+        alignment: &Alignment,
+        settings: &MarkerSettings,
+        rate_hz: f64,
+    ) -> Self {
+        let model = MarkerModel::new(actor, alignment);
+        let (n, m) = (model.n_markers(), model.n_muscles());
+        let upper_bound = if settings.allow_exaggeration {
+            EXAGGERATED
+        } else {
+            FULL
+        };
+        Self {
+            model_from_performance: alignment.model_from_performance,
+            region_mode: settings.region_mode,
+            stabilize_head: settings.stabilize_head,
+            upper_bound,
+            rate_hz,
+            x: vec![0.0; m],
+            motion: Stabilizer::identity(),
+            frames_since_pose: None,
+            head_known: false,
+            regions: [RegionOutcome::default(); 2],
+            kkt_residual: 0.0,
+            evidence: None,
+            joint: JointProblem::new(m),
+            whole: BoxQp::new(m),
+            apart: [0, 1].map(|it: usize| BoxQp::new(model.own_muscles[it].len())),
+            visible: vec![false; n],
+            aligned: vec![Vector3::zeros(); n],
+            stabilized: vec![Vector3::zeros(); n],
+            reproduced: vec![0.0; 3 * n],
+            linear: vec![0.0; m],
+            model,
+        }
+    }
+
+    /// Takes over the contractions and the head's motion of the solver that this one replaces between two frames.
+    pub fn continue_from(&mut self, before: &Self) {
+        if before.x.len() == self.x.len() {
+            self.x.clone_from(&before.x);
+            for it in &mut self.x {
+                *it = it.min(self.upper_bound);
+            }
+        }
+        self.motion = before.motion;
+        self.frames_since_pose = before.frames_since_pose;
+        self.head_known = self.stabilize_head && before.head_known;
+    }
+
+    /// The declared rate of the capture, when a new publisher declares another.
+    pub fn set_rate_hz(&mut self, rate_hz: f64) {
+        self.rate_hz = rate_hz;
+    }
+
+    /// Solves one frame: one position a marker of the actor, in the actor's order.
+    ///
+    /// # Panics
+    ///
+    /// When there are fewer positions than markers: the caller has counted them.
+    pub fn solve(&mut self, positions: &[Option<PerformancePoint>]) {
+        self.align(positions);
+        let evidence = self.current_evidence();
+        self.frames_since_pose = self.frames_since_pose.map(|it| it.saturating_add(1));
+        for (outcome, region) in self.regions.iter_mut().zip(&evidence.regions) {
+            *outcome = RegionOutcome {
+                held: region.held,
+                visible: region.visible,
+                expected: region.expected,
+                marker_error_cm: 0.0,
+            };
+        }
+        self.kkt_residual = 0.0;
+        self.head_known = false;
+        if !evidence.is_held() {
+            self.solve_visible(&evidence);
+        }
+        self.evidence = Some(evidence);
+    }
+
+    /// Moves the visible markers into model space.
+    fn align(&mut self, positions: &[Option<PerformancePoint>]) {
+        let similarity = &self.model_from_performance;
+        let linear = similarity.rotation.to_rotation_matrix().into_inner() * similarity.scale;
+        for (j, &marker) in self.model.markers.iter().enumerate() {
+            self.visible[j] = positions[marker].is_some();
+            self.aligned[j] = positions[marker].map_or(Vector3::zeros(), |it| {
+                linear * it.0.coords + similarity.translation_cm
+            });
+        }
+    }
+
+    /// The evidence of the present visibility: the last frame's, unless a marker came or went.
+    fn current_evidence(&mut self) -> Evidence {
+        match self.evidence.take() {
+            Some(evidence) if evidence.visible == self.visible => evidence,
+            _ => {
+                let evidence = Evidence::new(&self.model, self.region_mode, &self.visible);
+                self.set_evidence(&evidence);
+                evidence
+            }
+        }
+    }
+
+    fn set_evidence(&mut self, evidence: &Evidence) {
+        if evidence.is_held() {
+            return;
+        }
+        if self.stabilize_head {
+            self.joint.set_evidence(evidence);
+        }
+        let m = self.model.n_muscles();
+        match self.region_mode {
+            RegionMode::Joint => fill_block(&mut self.whole, &evidence.gram, m, 0..m),
+            RegionMode::Split => {
+                for (index, qp) in self.apart.iter_mut().enumerate() {
+                    let own = &self.model.own_markers[index];
+                    let used: Vec<usize> = evidence
+                        .used
+                        .iter()
+                        .copied()
+                        .filter(|it| own.contains(it))
+                        .collect();
+                    let gram = gram(&self.model, &used);
+                    fill_block(qp, &gram, m, self.model.own_muscles[index].clone());
+                }
+            }
+        }
+    }
+
+    fn solve_visible(&mut self, evidence: &Evidence) {
+        if evidence.is_degenerate(&self.model, &self.aligned) {
+            return self.hold_all(HeldReason::DegeneratePose);
+        }
+        self.decay_unobserved(evidence);
+        let solved = if self.stabilize_head {
+            self.solve_with_head(evidence)
+        } else {
+            self.stabilized.copy_from_slice(&self.aligned);
+            self.solve_still(evidence);
+            true
+        };
+        if solved {
+            self.measure_errors(evidence);
+        }
+    }
+
+    fn hold_all(&mut self, reason: HeldReason) {
+        for region in &mut self.regions {
+            region.held.get_or_insert(reason);
+        }
+    }
+
+    /// Hidden muscles fade (METHODS 5b, step 2); held ones stand still.
+    fn decay_unobserved(&mut self, evidence: &Evidence) {
+        let factor = (-1.0 / (UNOBSERVED_DECAY_SECS * self.rate_hz)).exp();
+        for (x, part) in self.x.iter_mut().zip(&evidence.parts) {
+            if *part == Part::Unobserved {
+                *x *= factor;
+            }
+        }
+    }
+
+    /// The joint problem; regions apart then take its pose and solve again on their own.
+    fn solve_with_head(&mut self, evidence: &Evidence) -> bool {
+        if !self.start_motion(evidence) {
+            self.hold_all(HeldReason::DegeneratePose);
+            return false;
+        }
+        let before = self.x.clone();
+        bound(
+            &mut self.joint.qp,
+            &evidence.parts,
+            &self.x,
+            self.upper_bound,
+        );
+        let report = self.joint.solve(
+            &self.model,
+            evidence,
+            &self.aligned,
+            &mut self.stabilized,
+            &mut self.motion,
+            &mut self.x,
+        );
+        let Ok(report) = report else {
+            self.x = before;
+            self.hold_all(HeldReason::SolverBudget);
+            return false;
+        };
+        self.frames_since_pose = Some(0);
+        self.head_known = true;
+        self.kkt_residual = report.kkt_residual;
+        for (stabilized, aligned) in self.stabilized.iter_mut().zip(&self.aligned) {
+            *stabilized = self.motion.apply(aligned);
+        }
+        if self.region_mode == RegionMode::Split {
+            self.x = before;
+            self.solve_still(evidence);
+        }
+        true
+    }
+
+    /// Fits the head's motion anew where the last one is too old to start from.
+    fn start_motion(&mut self, evidence: &Evidence) -> bool {
+        let limit = POSE_LOST_SECS * self.rate_hz;
+        if self.frames_since_pose.is_some_and(|it| it as f64 <= limit) {
+            return true;
+        }
+        self.reproduce();
+        let expected: Vec<Vector3<f64>> = self
+            .reproduced
+            .chunks_exact(3)
+            .map(Vector3::from_column_slice)
+            .collect();
+        match Stabilizer::fitted(&self.model, evidence, &self.aligned, &expected) {
+            Some(motion) => {
+                self.motion = motion;
+                true
+            }
+            None => false,
+        }
+    }
+
+    /// The box QP over the stabilized markers, without a pose: all muscles at once, or each region apart.
+    fn solve_still(&mut self, evidence: &Evidence) {
+        match self.region_mode {
+            RegionMode::Joint => {
+                let m = self.model.n_muscles();
+                correlate(
+                    &self.model,
+                    evidence,
+                    &self.stabilized,
+                    0..m,
+                    None,
+                    &mut self.linear,
+                );
+                bound(&mut self.whole, &evidence.parts, &self.x, self.upper_bound);
+                match self.whole.solve(&self.linear, &mut self.x) {
+                    Ok(report) => self.kkt_residual = report.kkt_residual,
+                    Err(_) => self.hold_all(HeldReason::SolverBudget),
+                }
+            }
+            RegionMode::Split => {
+                self.kkt_residual = 0.0;
+                for index in 0..2 {
+                    self.solve_region(index, evidence);
+                }
+            }
+        }
+    }
+
+    fn solve_region(&mut self, index: usize, evidence: &Evidence) {
+        if self.regions[index].held.is_some() {
+            return;
+        }
+        let muscles = self.model.own_muscles[index].clone();
+        let markers = Some(self.model.own_markers[index].clone());
+        let linear = &mut self.linear[..muscles.len()];
+        correlate(
+            &self.model,
+            evidence,
+            &self.stabilized,
+            muscles.clone(),
+            markers,
+            linear,
+        );
+        let qp = &mut self.apart[index];
+        let x = &mut self.x[muscles.clone()];
+        bound(qp, &evidence.parts[muscles], x, self.upper_bound);
+        match qp.solve(linear, x) {
+            Ok(report) => self.kkt_residual = self.kkt_residual.max(report.kkt_residual),
+            Err(_) => self.regions[index].held = Some(HeldReason::SolverBudget),
+        }
+    }
+
+    /// p = p₀ + D x at every marker.
+    fn reproduce(&mut self) {
+        for (point, rest) in self.reproduced.chunks_exact_mut(3).zip(&self.model.rest) {
+            point.copy_from_slice(rest.as_slice());
+        }
+        for (i, &x) in self.x.iter().enumerate() {
+            if x != 0.0 {
+                for (p, d) in self.reproduced.iter_mut().zip(self.model.column(i)) {
+                    *p += x * d;
+                }
+            }
+        }
+    }
+
+    /// Per-frame marker error of each region (Choe & Ko 2001, section 5).
+    fn measure_errors(&mut self, evidence: &Evidence) {
+        self.reproduce();
+        for (index, region) in self.regions.iter_mut().enumerate() {
+            if region.held.is_some() {
+                continue;
+            }
+            let own = self.model.own_markers[index].clone();
+            let mut sum = 0.0;
+            for j in own.filter(|&j| evidence.visible[j]) {
+                let reproduced = Vector3::from_column_slice(&self.reproduced[3 * j..3 * j + 3]);
+                sum += (self.stabilized[j] - reproduced).norm();
+            }
+            region.marker_error_cm = sum / region.visible.max(1) as f64;
+        }
+    }
+
+    /// Contractions in the actor's order.
+    pub fn activations(&self) -> Vec<f64> {
+        let mut activations = vec![0.0; self.x.len()];
+        for (&muscle, &x) in self.model.muscles.iter().zip(&self.x) {
+            activations[muscle] = x;
+        }
+        activations
+    }
+
+    /// Actor's indices of the muscles that the last frame could not tell, ascending.
+    pub fn unobserved(&self) -> Vec<usize> {
+        let parts = self.evidence.iter().flat_map(|it| &it.parts);
+        let mut unobserved: Vec<usize> = parts
+            .zip(&self.model.muscles)
+            .filter(|(part, _)| **part == Part::Unobserved)
+            .map(|(_, &muscle)| muscle)
+            .collect();
+        unobserved.sort_unstable();
+        unobserved
+    }
+
+    /// What each region showed, in the order of [`FaceRegion::ALL`].
+    pub fn regions(&self) -> [(FaceRegion, RegionOutcome); 2] {
+        FaceRegion::ALL.map(|it| (it, self.regions[it.index()]))
+    }
+
+    /// The head's motion in the last frame; `None` when it is not tracked or not known.
+    pub fn head(&self) -> Option<HeadPose> {
+        self.head_known.then(|| self.motion.head_pose())
+    }
+
+    /// KKT residual of the last solution, relative to the largest diagonal entry of Q; 0 when all is held.
+    pub fn kkt_residual(&self) -> f64 {
+        self.kkt_residual
+    }
+
+    /// The visible markers of the last frame as actor's index, observed and reproduced position, centimeters, head motion
+    /// taken out; empty when all is held.
+    pub fn visible_markers(
+        &self,
+    ) -> impl Iterator<Item = (usize, Vector3<f64>, Vector3<f64>)> + '_ {
+        let solved = self.regions.iter().any(|it| it.held.is_none());
+        let count = if solved { self.model.n_markers() } else { 0 };
+        (0..count).filter(|&j| self.visible[j]).map(|j| {
+            let reproduced = Vector3::from_column_slice(&self.reproduced[3 * j..3 * j + 3]);
+            (self.model.markers[j], self.stabilized[j], reproduced)
+        })
+    }
+}
+
+/// c = Dᵀd over the used markers (of a range, or all) for a range of muscles.
+fn correlate(
+    model: &MarkerModel,
+    evidence: &Evidence,
+    stabilized: &[Vector3<f64>],
+    muscles: std::ops::Range<usize>,
+    markers: Option<std::ops::Range<usize>>,
+    linear: &mut [f64],
+) {
+    linear.fill(0.0);
+    for &j in &evidence.used {
+        if markers.as_ref().is_some_and(|it| !it.contains(&j)) {
+            continue;
+        }
+        let displacement = stabilized[j] - model.rest[j];
+        let rows = [0, 1, 2].map(|axis| &model.row(j, axis)[muscles.clone()]);
+        let columns = rows[0].iter().zip(rows[1]).zip(rows[2]);
+        for (c, ((x, y), z)) in linear.iter_mut().zip(columns) {
+            *c += x * displacement.x + y * displacement.y + z * displacement.z;
+        }
+    }
+}
+
+/// Solved muscles get their box, all others are fixed where they stand.
+fn bound(qp: &mut BoxQp, parts: &[Part], x: &[f64], upper: f64) {
+    for (i, (part, &x)) in parts.iter().zip(x).enumerate() {
+        match part {
+            Part::Solved => qp.set_bounds(i, 0.0, upper),
+            Part::Unobserved | Part::Held => qp.set_bounds(i, x, x),
+        }
+    }
+}
+
+/// Gives a box QP the block of `gram` (columns m apart) that belongs to its muscles.
+fn fill_block(qp: &mut BoxQp, gram: &[f64], m: usize, muscles: std::ops::Range<usize>) {
+    let size = muscles.len();
+    qp.set_hessian(|q| {
+        for (i, muscle) in muscles.clone().enumerate() {
+            let column = &gram[muscle * m..(muscle + 1) * m];
+            q[i * size..(i + 1) * size].copy_from_slice(&column[muscles.clone()]);
+            q[i * size + i] += RIDGE;
+        }
+    });
+}
