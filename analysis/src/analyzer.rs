@@ -182,7 +182,7 @@ impl MarkerAnalyzer {
             });
         }
         let mut mean = neutral::average(&usable);
-        mean.resize(self.actor.markers().len(), None);
+        mean.positions.resize(self.actor.markers().len(), None);
         let kept = std::mem::take(frames);
         let alignment = match Alignment::find(&self.actor, &mean, self.unit) {
             Ok(alignment) => alignment,

@@ -3,11 +3,17 @@
 //! Finds s, R, t of ᴹp = s R ᴾp + t from pairs of real and virtual markers, in closed form; projects the aligned markers
 //! onto the surface along its normal, takes the feet as the new virtual markers, and repeats until they stand still.
 //! The feet are kept as triangle and barycentric weights.
+//!
+//! Projection mends the artist's hand-marking, but on a smooth surface it also lets the noise of the neutral frames slide
+//! the virtual markers about. Both are known: the noise from the spread of the frames, the hand-marking from how badly the
+//! hand-marked points fit at first. What is projected is the mean of the aligned and the hand-marked point, weighted by
+//! the two variances: all of the paper's step where hand-marking is the larger error, none where it is exact.
 
 use crate::{
     face::{actor::Actor, marker::VirtualMarker, region::FaceRegion},
+    marker_analysis::neutral::Neutral,
     numeric::similarity_fit::{Fit, Scale, fit},
-    space::{LengthUnit, PerformancePoint, Similarity},
+    space::{LengthUnit, ModelPoint, PerformancePoint, Similarity},
 };
 
 /// Rounds of fit and projection; sliding along a smooth surface is slow, so it is cut off.
@@ -18,6 +24,9 @@ const STILL_CM: f64 = 1e-4;
 
 /// How far a marker may be projected from where the artist put it, centimeters along the surface.
 const PROJECTION_RADIUS_CM: f64 = 1.5;
+
+/// Degrees of freedom of a similarity.
+const SIMILARITY_FREEDOM: f64 = 7.0;
 
 /// Extent of a face's markers, centimeters (BAD_INPUT A17).
 const FACE_EXTENT_CM: std::ops::RangeInclusive<f64> = 5.0..=60.0;
@@ -89,9 +98,11 @@ impl Alignment {
     /// When too few markers were seen, they do not span a face, or span a mirrored one.
     pub fn find(
         actor: &Actor,
-        neutral: &[Option<PerformancePoint>],
+        neutral: &Neutral,
         unit: LengthUnit,
     ) -> Result<Self, AlignmentError> {
+        let noise_cm = neutral.noise_cm;
+        let neutral = neutral.positions.as_slice();
         check_complete(actor, neutral)?;
         check_extent(neutral, unit)?;
         let mut bindings: Vec<Option<VirtualMarker>> = actor
@@ -109,9 +120,21 @@ impl Alignment {
             })
             .collect();
         let mut similarity = fit_similarity(actor, neutral, &bindings)?;
+        let trust = trust_in_projection(
+            rms_residual(actor, neutral, &similarity, &bindings),
+            neutral.iter().flatten().count(),
+            noise_cm,
+        );
         let mut iterations = 1;
         while iterations < ROUNDS {
-            let moved_cm = project(actor, neutral, &similarity, &reachable, &mut bindings);
+            let moved_cm = project(
+                actor,
+                neutral,
+                &similarity,
+                trust,
+                &reachable,
+                &mut bindings,
+            );
             similarity = fit_similarity(actor, neutral, &bindings)?;
             iterations += 1;
             if moved_cm < STILL_CM {
@@ -228,22 +251,43 @@ fn fit_similarity(
     })
 }
 
-/// Moves every virtual marker to the foot of its real one on the surface; returns the largest move, centimeters.
+/// The share of the hand-marking's variance in that of hand-marking and noise together.
+///
+/// The residual of the first fit holds both, over 3n less the similarity's seven degrees of freedom.
+fn trust_in_projection(rms_residual_cm: f64, n_markers: usize, noise_cm: f64) -> f64 {
+    let n = n_markers as f64;
+    let freedom = (3.0 * n - SIMILARITY_FREEDOM).max(1.0);
+    let both = rms_residual_cm * rms_residual_cm * n / freedom;
+    let noise = noise_cm * noise_cm;
+    if both > noise {
+        (both - noise) / both
+    } else {
+        0.0
+    }
+}
+
+/// Moves every virtual marker to the foot of its real one on the surface, as far as `trust` goes; returns the largest
+/// move, centimeters.
 fn project(
     actor: &Actor,
     neutral: &[Option<PerformancePoint>],
     similarity: &Similarity,
+    trust: f64,
     reachable: &[Vec<usize>],
     bindings: &mut [Option<VirtualMarker>],
 ) -> f64 {
     let mesh = actor.mesh();
     let mut largest_cm = 0.0_f64;
-    for ((real, binding), triangles) in neutral.iter().zip(bindings).zip(reachable) {
+    let hand_marked = actor.virtual_markers().iter();
+    let markers = neutral.iter().zip(bindings).zip(hand_marked).zip(reachable);
+    for (((real, binding), hand_marked), triangles) in markers {
         let (Some(real), Some(binding)) = (real, binding) else {
             continue;
         };
-        let aligned = similarity.to_model(*real);
-        if let Some(foot) = mesh.closest_point_among(aligned, triangles.iter().copied()) {
+        let start = hand_marked.position(mesh).0;
+        let target = start + trust * (similarity.to_model(*real).0 - start);
+        let among = triangles.iter().copied();
+        if let Some(foot) = mesh.closest_point_among(ModelPoint(target), among) {
             let before = binding.position(mesh);
             largest_cm = largest_cm.max((foot.position.0 - before.0).norm());
             *binding = foot.place;

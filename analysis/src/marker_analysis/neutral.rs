@@ -3,7 +3,7 @@
 //! The head may move while the neutral face is collected; averaging K frames divides the marker noise by √K before the
 //! surface projection of the alignment, which would otherwise turn that noise into a wrong binding.
 
-use nalgebra::Point3;
+use nalgebra::{Point3, Vector3};
 
 use crate::{
     numeric::similarity_fit::{Scale, fit},
@@ -19,37 +19,83 @@ const MARKERS_SHARED: usize = 3;
 /// One captured instant, one entry a marker.
 type Positions = [Option<PerformancePoint>];
 
-/// The mean position of every marker over `frames`, in the pose of the frame that shows most of them.
-///
-/// `None` for a marker that no usable frame shows. A frame that shares too few markers with the mean is left out.
-pub fn average(frames: &[&Positions]) -> Vec<Option<PerformancePoint>> {
-    // Of equally complete frames the first: max_by_key would take the last.
-    let Some(reference) = frames
-        .iter()
-        .rev()
-        .max_by_key(|frame| frame.iter().flatten().count())
-    else {
-        return Vec::new();
-    };
-    (0..ROUNDS).fold(reference.to_vec(), |mean, _| register_all(frames, &mean))
+/// The mean neutral face of a performance.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Neutral {
+    /// One entry a marker; `None` when no usable frame shows it.
+    pub positions: Vec<Option<PerformancePoint>>,
+    /// Standard deviation of a mean position per axis, centimeters: what is left of the marker noise after averaging.
+    /// 0 when a single frame cannot tell.
+    pub noise_cm: f64,
 }
 
-fn register_all(frames: &[&Positions], mean: &Positions) -> Vec<Option<PerformancePoint>> {
-    let mut sums = vec![(0.0, nalgebra::Vector3::zeros()); mean.len()];
+/// The mean position of every marker over `frames`, in the pose of the frame that shows most of them.
+///
+/// A frame that shares too few markers with the mean is left out.
+pub fn average(frames: &[&Positions]) -> Neutral {
+    // Of equally complete frames the first: max_by_key would take the last.
+    let complete = |frame: &&&Positions| frame.iter().flatten().count();
+    let reference = frames.iter().rev().max_by_key(complete);
+    let mut neutral = Neutral {
+        positions: reference.map_or(Vec::new(), |it| it.to_vec()),
+        noise_cm: 0.0,
+    };
+    for _ in 0..ROUNDS {
+        neutral = register_all(frames, &neutral.positions);
+    }
+    neutral
+}
+
+/// Sums over the frames that show one marker.
+#[derive(Clone, Copy, Default)]
+struct Sums {
+    count: f64,
+    sum: Vector3<f64>,
+    squares: f64,
+}
+
+fn register_all(frames: &[&Positions], mean: &Positions) -> Neutral {
+    let mut sums = vec![Sums::default(); mean.len()];
+    let mut registered = 0.0;
     for frame in frames {
         let Some(moved) = register(frame, mean) else {
             continue;
         };
-        for ((count, sum), point) in sums.iter_mut().zip(moved) {
-            if let Some(point) = point {
-                *count += 1.0;
-                *sum += point.coords;
+        registered += 1.0;
+        for ((sums, point), mean) in sums.iter_mut().zip(moved).zip(mean) {
+            if let (Some(point), Some(mean)) = (point, mean) {
+                // Relative to the mean before, so that the squares do not cancel.
+                let offset = point - mean.0;
+                sums.count += 1.0;
+                sums.sum += offset;
+                sums.squares += offset.norm_squared();
             }
         }
     }
-    sums.into_iter()
-        .map(|(count, sum)| (count > 0.0).then(|| PerformancePoint(Point3::from(sum / count))))
-        .collect()
+    let positions = sums.iter().zip(mean).map(|(sums, mean)| {
+        let mean = (*mean)?;
+        (sums.count > 0.0).then(|| PerformancePoint(mean.0 + sums.sum / sums.count))
+    });
+    Neutral {
+        positions: positions.collect(),
+        noise_cm: noise_of_mean(&sums, registered),
+    }
+}
+
+/// The residuals' variance over their degrees of freedom (three a marker and frame, less the means and the rigid motions),
+/// divided by the frames that went into a mean.
+fn noise_of_mean(sums: &[Sums], frames: f64) -> f64 {
+    let (mut residual, mut observations, mut markers) = (0.0, 0.0, 0.0);
+    for it in sums.iter().filter(|it| it.count > 0.0) {
+        residual += it.squares - it.sum.norm_squared() / it.count;
+        observations += it.count;
+        markers += 1.0;
+    }
+    let freedom = 3.0 * (observations - markers) - 6.0 * (frames - 1.0);
+    if freedom < 1.0 {
+        return 0.0;
+    }
+    (residual.max(0.0) / freedom * markers / observations).sqrt()
 }
 
 /// The frame's markers, moved rigidly onto the mean.
@@ -71,7 +117,10 @@ fn register(frame: &Positions, mean: &Positions) -> Option<Vec<Option<Point3<f64
 
 #[cfg(test)]
 mod tests {
-    use nalgebra::{UnitQuaternion, Vector3};
+    use rand::{RngExt as _, SeedableRng as _};
+    use rand_pcg::Pcg64;
+
+    use nalgebra::UnitQuaternion;
 
     use super::*;
 
@@ -98,16 +147,39 @@ mod tests {
     fn a_moving_head_and_a_hidden_marker_do_not_disturb_the_mean() {
         let frames = [frame(0.0, None), frame(0.2, Some(1)), frame(-0.1, Some(3))];
         let borrowed: Vec<&Positions> = frames.iter().map(Vec::as_slice).collect();
-        for (mean, truth) in average(&borrowed).iter().zip(&frames[0]) {
+        let neutral = average(&borrowed);
+        for (mean, truth) in neutral.positions.iter().zip(&frames[0]) {
             assert!((mean.unwrap().0 - truth.unwrap().0).norm() < 1e-9);
         }
+        assert!(neutral.noise_cm < 1e-7);
     }
 
     #[test]
     fn a_marker_that_no_frame_shows_stays_unseen() {
         let frames = [frame(0.0, Some(2)), frame(0.1, Some(2))];
         let borrowed: Vec<&Positions> = frames.iter().map(Vec::as_slice).collect();
-        assert_eq!(average(&borrowed)[2], None);
-        assert_eq!(average(&borrowed).iter().flatten().count(), 4);
+        let positions = average(&borrowed).positions;
+        assert_eq!(positions[2], None);
+        assert_eq!(positions.iter().flatten().count(), 4);
+    }
+
+    #[test]
+    fn the_noise_of_the_mean_is_the_marker_noise_over_the_root_of_the_frames() {
+        let mut rng = Pcg64::seed_from_u64(7);
+        let frames: Vec<Vec<Option<PerformancePoint>>> = (0..400)
+            .map(|_| {
+                let mut noisy = frame(0.0, None);
+                for it in noisy.iter_mut().flatten() {
+                    // Uniform over ±0.1 √3: standard deviation 0.1.
+                    for axis in 0..3 {
+                        it.0[axis] += 0.1 * 3_f64.sqrt() * rng.random_range(-1.0..1.0);
+                    }
+                }
+                noisy
+            })
+            .collect();
+        let borrowed: Vec<&Positions> = frames.iter().map(Vec::as_slice).collect();
+        let noise_cm = average(&borrowed).noise_cm;
+        assert!((noise_cm / (0.1 / 20.0) - 1.0).abs() < 0.1, "{noise_cm}");
     }
 }
