@@ -117,6 +117,7 @@ impl HeadPose {
     }
 
     /// The motion that takes this one back.
+    #[must_use]
     pub fn inverse(&self) -> Self {
         let rotation = self.rotation.inverse();
         Self {

@@ -1,4 +1,5 @@
 //! The box QP against an independent interior-point solver on random problems.
+#![expect(clippy::unwrap_used, reason = "the failure of a test is its report")]
 
 use clarabel::{
     algebra::CscMatrix,

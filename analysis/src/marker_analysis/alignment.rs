@@ -28,10 +28,10 @@ const PROJECTION_RADIUS_CM: f64 = 1.5;
 /// Degrees of freedom of a similarity.
 const SIMILARITY_FREEDOM: f64 = 7.0;
 
-/// Extent of a face's markers, centimeters (BAD_INPUT A17).
+/// Extent of a face's markers, centimeters in any unit that a capture may mean.
 const FACE_EXTENT_CM: std::ops::RangeInclusive<f64> = 5.0..=60.0;
 
-/// Own markers of each region that the neutral frames must show (BAD_INPUT C5).
+/// Own markers of each region that the neutral frames must show.
 const MARKERS_PER_REGION: usize = 4;
 
 /// A mirror image's smallest singular value is this share of the second, or more; a flat set says nothing.
@@ -156,6 +156,7 @@ impl Alignment {
 
     /// The same alignment on another revision of the actor: where the mesh is another, each marker moves to the closest
     /// point of it.
+    #[must_use]
     pub fn carried_over(&self, from: &Actor, to: &Actor) -> Self {
         if from.mesh().triangles == to.mesh().triangles {
             return self.clone();

@@ -1,8 +1,10 @@
 //! Contractions of all muscles from one frame of markers (Choe & Ko 2001, section 4.1.2).
 //!
 //! Displacements d = aligned markers − virtual markers, in model space; the contractions minimize |d − Dx|² within their
-//! bounds, a box QP with Q = DᵀD and c = Dᵀd.
+//! bounds, a box QP with `Q = DᵀD` and `c = Dᵀd`.
 //! Occluded markers leave the sums; a region that shows too little is held, a muscle whose markers are hidden decays.
+
+use std::ops::Range;
 
 use nalgebra::Vector3;
 
@@ -193,14 +195,7 @@ impl ContractionSolver {
             RegionMode::Joint => fill_block(&mut self.whole, &evidence.gram, m, 0..m),
             RegionMode::Split => {
                 for (index, qp) in self.apart.iter_mut().enumerate() {
-                    let own = &self.model.own_markers[index];
-                    let used: Vec<usize> = evidence
-                        .used
-                        .iter()
-                        .copied()
-                        .filter(|it| own.contains(it))
-                        .collect();
-                    let gram = gram(&self.model, &used);
+                    let gram = gram(&self.model, &evidence.own_used[index]);
                     fill_block(qp, &gram, m, self.model.own_muscles[index].clone());
                 }
             }
@@ -307,10 +302,9 @@ impl ContractionSolver {
                 let m = self.model.n_muscles();
                 correlate(
                     &self.model,
-                    evidence,
+                    &evidence.used,
                     &self.stabilized,
                     0..m,
-                    None,
                     &mut self.linear,
                 );
                 bound(&mut self.whole, &evidence.parts, &self.x, self.upper_bound);
@@ -333,14 +327,12 @@ impl ContractionSolver {
             return;
         }
         let muscles = self.model.own_muscles[index].clone();
-        let markers = Some(self.model.own_markers[index].clone());
         let linear = &mut self.linear[..muscles.len()];
         correlate(
             &self.model,
-            evidence,
+            &evidence.own_used[index],
             &self.stabilized,
             muscles.clone(),
-            markers,
             linear,
         );
         let qp = &mut self.apart[index];
@@ -433,20 +425,16 @@ impl ContractionSolver {
     }
 }
 
-/// c = Dᵀd over the used markers (of a range, or all) for a range of muscles.
+/// `c = Dᵀd` over some markers for a range of muscles.
 fn correlate(
     model: &MarkerModel,
-    evidence: &Evidence,
+    used: &[usize],
     stabilized: &[Vector3<f64>],
-    muscles: std::ops::Range<usize>,
-    markers: Option<std::ops::Range<usize>>,
+    muscles: Range<usize>,
     linear: &mut [f64],
 ) {
     linear.fill(0.0);
-    for &j in &evidence.used {
-        if markers.as_ref().is_some_and(|it| !it.contains(&j)) {
-            continue;
-        }
+    for &j in used {
         let displacement = stabilized[j] - model.rest[j];
         let rows = [0, 1, 2].map(|axis| &model.row(j, axis)[muscles.clone()]);
         let columns = rows[0].iter().zip(rows[1]).zip(rows[2]);
@@ -467,7 +455,7 @@ fn bound(qp: &mut BoxQp, parts: &[Part], x: &[f64], upper: f64) {
 }
 
 /// Gives a box QP the block of `gram` (columns m apart) that belongs to its muscles.
-fn fill_block(qp: &mut BoxQp, gram: &[f64], m: usize, muscles: std::ops::Range<usize>) {
+fn fill_block(qp: &mut BoxQp, gram: &[f64], m: usize, muscles: Range<usize>) {
     let size = muscles.len();
     qp.set_hessian(|q| {
         for (i, muscle) in muscles.clone().enumerate() {

@@ -47,9 +47,11 @@ pub(super) struct Evidence {
     pub visible: Vec<bool>,
     /// Markers used: visible and not of a held region.
     pub used: Vec<usize>,
+    /// Those of them that are a region's own.
+    pub own_used: [Vec<usize>; 2],
     pub regions: [RegionEvidence; 2],
     pub parts: Vec<Part>,
-    /// Σ DⱼᵀDⱼ over the used markers, m × m.
+    /// `Σ DⱼᵀDⱼ` over the used markers, m × m.
     pub gram: Vec<f64>,
     /// Σ dᵢⱼ over the used markers, one a muscle.
     pub displacement_sums: Vec<Vector3<f64>>,
@@ -62,6 +64,10 @@ impl Evidence {
     pub fn new(model: &MarkerModel, mode: RegionMode, visible: &[bool]) -> Self {
         let regions = FaceRegion::ALL.map(|region| region_evidence(model, region, visible));
         let used = used_markers(model, &regions, visible);
+        let own_used = [0, 1].map(|index: usize| {
+            let own = &model.own_markers[index];
+            used.iter().copied().filter(|it| own.contains(it)).collect()
+        });
         let (rest_mean, rest_volume) = rest_volume(model, &used);
         Self {
             parts: parts(model, mode, &regions, &used),
@@ -71,6 +77,7 @@ impl Evidence {
                 .collect(),
             visible: visible.to_vec(),
             used,
+            own_used,
             regions,
             rest_mean,
             rest_volume,
@@ -155,7 +162,7 @@ fn parts(
     parts
 }
 
-/// Σ DⱼᵀDⱼ over `used`, m × m, columns m apart.
+/// `Σ DⱼᵀDⱼ` over `used`, m × m, columns m apart.
 pub(super) fn gram(model: &MarkerModel, used: &[usize]) -> Vec<f64> {
     let m = model.n_muscles();
     let mut gram = vec![0.0; m * m];

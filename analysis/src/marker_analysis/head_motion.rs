@@ -92,7 +92,7 @@ impl Stabilizer {
     }
 }
 
-/// One Newton step towards the closest orthonormal matrix: R (3 I − RᵀR) / 2, exact to second order.
+/// One Newton step towards the closest orthonormal matrix: `R (3 I − RᵀR) / 2`, exact to second order.
 fn orthonormal(near: &Matrix3<f64>) -> Matrix3<f64> {
     near * (Matrix3::identity() * 3.0 - near.transpose() * near) * 0.5
 }

@@ -80,8 +80,7 @@ impl MarkerModel {
         for (j, &marker) in self.markers.iter().enumerate() {
             let displacements = basis.of_marker_cm(marker);
             for (i, &muscle) in self.muscles.iter().enumerate() {
-                for axis in 0..3 {
-                    let value = displacements[muscle][axis];
+                for (axis, &value) in displacements[muscle].iter().enumerate() {
                     self.rows[(3 * j + axis) * m + i] = value;
                     self.columns[i * 3 * n + 3 * j + axis] = value;
                 }
