@@ -5,10 +5,12 @@
 
 pub mod catalogue;
 pub mod clock;
+pub mod config;
 pub mod executor;
 pub mod fs;
 pub mod hub;
 pub mod name;
 pub mod service;
 pub mod session;
+pub mod telemetry;
 pub mod wire;

@@ -189,3 +189,6 @@ impl RawRevision {
         })
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -21,6 +21,8 @@ pub struct StoredAlignment {
     pub unit: LengthUnit,
     /// The names that the publisher declared, in its order.
     pub marker_names: Vec<String>,
+    /// Revision of the actor whose mesh the bindings lie on.
+    pub actor_revision: u32,
 }
 
 impl StoredAlignment {
@@ -53,6 +55,7 @@ struct Record {
     iterations: u32,
     unit: String,
     marker_names: Vec<String>,
+    actor_revision: u32,
 }
 
 #[derive(Serialize, Deserialize)]
@@ -81,6 +84,7 @@ impl From<&StoredAlignment> for Record {
             iterations: stored.alignment.iterations,
             unit: stored.unit.symbol().to_owned(),
             marker_names: stored.marker_names.clone(),
+            actor_revision: stored.actor_revision,
         }
     }
 }
@@ -111,6 +115,7 @@ impl TryFrom<Record> for StoredAlignment {
             },
             unit: unit.ok_or(UNREADABLE)?,
             marker_names: record.marker_names,
+            actor_revision: record.actor_revision,
         })
     }
 }
@@ -145,6 +150,7 @@ mod tests {
                 },
                 unit: LengthUnit::Millimeter,
                 marker_names: vec!["brow \"outer\" left".into(), String::new()],
+                actor_revision: 3,
             };
             let back = StoredAlignment::from_text(&stored.to_text().unwrap()).unwrap();
             prop_assert_eq!(bits(&back), bits(&stored));

@@ -164,3 +164,43 @@ fn region_of(name: &str) -> Result<FaceRegion, CatalogueError> {
     let known = FaceRegion::ALL.into_iter().find(|it| it.name() == name);
     known.ok_or(UNREADABLE)
 }
+
+#[cfg(test)]
+pub(super) mod tests {
+    use super::*;
+
+    pub(in crate::catalogue) fn layout() -> Layout {
+        Layout {
+            display_name: "Actor A".into(),
+            muscle_set: "two".into(),
+            muscles: vec![Muscle {
+                name: "frontalis_left".into(),
+                region: FaceRegion::Upper,
+            }],
+            markers: vec![Marker {
+                name: "brow".into(),
+                region: FaceRegion::Upper,
+                head_fixed: true,
+            }],
+            n_vertices: 3,
+            n_triangles: 1,
+            conditions: [1.5, f64::INFINITY],
+            ambiguous: vec![("a".into(), "b".into(), -0.25)],
+            regularized: true,
+        }
+    }
+
+    #[test]
+    fn a_summary_reads_back_as_it_was_written() {
+        let layout = layout();
+        let back = Layout::from_text(&layout.to_text().unwrap()).unwrap();
+        assert_eq!(back, layout);
+    }
+
+    #[test]
+    fn a_summary_that_cannot_be_read_is_an_error() {
+        for text in ["", "{}", "{\"display_name\": 3}"] {
+            assert!(Layout::from_text(text).is_err(), "{text}");
+        }
+    }
+}

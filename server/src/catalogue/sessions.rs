@@ -3,9 +3,7 @@
 //! A run never repeats under one id and an epoch never repeats at all for one id, also when the row was collected and
 //! the id is used again: a new row starts above every run and epoch of the rows that are gone.
 
-use rusqlite::{
-    Connection, OptionalExtension as _, Params, Row, ToSql, TransactionBehavior, params,
-};
+use rusqlite::{Connection, OptionalExtension as _, Params, Row, TransactionBehavior, params};
 
 use super::{Catalogue, CatalogueError, StoredAlignment, StoredSettings};
 use crate::name::{ActorId, SessionId};
@@ -100,13 +98,19 @@ impl Catalogue {
         find(&self.connection(), id)
     }
 
-    /// Every session, ended ones included, by id.
+    /// At most `limit` sessions whose ids come after `after`, ended ones included, by id.
     ///
     /// # Errors
     ///
     /// That the database failed or a row cannot be read.
-    pub fn sessions(&self) -> Result<Vec<SessionRow>, CatalogueError> {
-        select(&self.connection(), "TRUE ORDER BY id", [])
+    pub fn sessions(&self, after: &str, limit: usize) -> Result<Vec<SessionRow>, CatalogueError> {
+        let limit = i64::try_from(limit).unwrap_or(i64::MAX);
+        let connection = self.connection();
+        select(
+            &connection,
+            "id > ?1 ORDER BY id LIMIT ?2",
+            params![after, limit],
+        )
     }
 
     /// Begins a new run of every session that has not ended, since the samples of the last one were lost with the
@@ -151,17 +155,23 @@ impl Catalogue {
         Ok(())
     }
 
-    /// Marks a session as ended. Ending an ended one changes nothing.
+    /// Marks a session's run as ended. One that is over already changes nothing.
     ///
     /// # Errors
     ///
-    /// [`CatalogueError::NoSession`].
-    pub fn end_session(&self, id: &SessionId, now_nanos: i64) -> Result<(), CatalogueError> {
-        self.change_session(
-            "UPDATE sessions SET end_time_nanos = COALESCE(end_time_nanos, ?2) WHERE id = ?1",
-            id,
-            &now_nanos,
-        )
+    /// That the database failed.
+    pub fn end_session(
+        &self,
+        id: &SessionId,
+        run: u64,
+        now_nanos: i64,
+    ) -> Result<(), CatalogueError> {
+        self.connection().execute(
+            "UPDATE sessions SET end_time_nanos = COALESCE(end_time_nanos, ?3)
+             WHERE id = ?1 AND run = ?2",
+            params![id.as_str(), counter(run), now_nanos],
+        )?;
+        Ok(())
     }
 
     /// The number of the next lease. It is on the disk before this returns, and is never returned again.
@@ -184,78 +194,71 @@ impl Catalogue {
             .ok_or(CatalogueError::NoSession)
     }
 
-    /// Stores the alignment of a session, in place of an earlier one.
+    /// Stores the alignment of a session's run, in place of an earlier one. A run that is over changes nothing.
     ///
     /// # Errors
     ///
-    /// [`CatalogueError::NoSession`].
+    /// That the database failed.
     pub fn put_alignment(
         &self,
         id: &SessionId,
+        run: u64,
         alignment: &StoredAlignment,
     ) -> Result<(), CatalogueError> {
-        let text = alignment.to_text()?;
-        self.change_session(
-            "UPDATE sessions SET alignment = ?2 WHERE id = ?1",
-            id,
-            &text,
-        )
+        self.set_alignment(id, run, Some(alignment.to_text()?))
     }
 
-    /// Drops the alignment of a session, if it has one.
+    /// Drops the alignment of a session's run, if it has one. A run that is over changes nothing.
     ///
     /// # Errors
     ///
-    /// [`CatalogueError::NoSession`].
-    pub fn forget_alignment(&self, id: &SessionId) -> Result<(), CatalogueError> {
-        let none: Option<String> = None;
-        self.change_session(
-            "UPDATE sessions SET alignment = ?2 WHERE id = ?1",
-            id,
-            &none,
-        )
+    /// That the database failed.
+    pub fn forget_alignment(&self, id: &SessionId, run: u64) -> Result<(), CatalogueError> {
+        self.set_alignment(id, run, None)
     }
 
-    /// Removes sessions that ended before `before_nanos`, and those created before then that never had a publisher.
-    /// Returns their ids, in order.
+    fn set_alignment(
+        &self,
+        id: &SessionId,
+        run: u64,
+        text: Option<String>,
+    ) -> Result<(), CatalogueError> {
+        self.connection().execute(
+            "UPDATE sessions SET alignment = ?3 WHERE id = ?1 AND run = ?2",
+            params![id.as_str(), counter(run), text],
+        )?;
+        Ok(())
+    }
+
+    /// Removes sessions that ended before `before_nanos`, those created before then that never had a publisher, and
+    /// of the ended ones all but the last [`MAX_ENDED`]. Returns their ids, in order.
     ///
     /// # Errors
     ///
     /// That the database failed.
     pub fn collect_sessions(&self, before_nanos: i64) -> Result<Vec<SessionId>, CatalogueError> {
         const OLD: &str = "end_time_nanos < ?1
-            OR (end_time_nanos IS NULL AND had_publisher = 0 AND create_time_nanos < ?1)";
+            OR (end_time_nanos IS NULL AND had_publisher = 0 AND create_time_nanos < ?1)
+            OR id IN (SELECT id FROM sessions WHERE end_time_nanos IS NOT NULL
+                      ORDER BY end_time_nanos DESC, id LIMIT -1 OFFSET ?2)";
+        let values = [before_nanos, MAX_ENDED];
         let mut connection = self.connection();
         let change = connection.transaction_with_behavior(TransactionBehavior::Immediate)?;
-        remember_counters(&change, OLD, [before_nanos])?;
+        remember_counters(&change, OLD, values)?;
         let ids: Vec<String> = change
             .prepare(&format!("DELETE FROM sessions WHERE {OLD} RETURNING id"))?
-            .query_map([before_nanos], |row| row.get(0))?
+            .query_map(values, |row| row.get(0))?
             .collect::<Result<_, _>>()?;
         change.commit()?;
-        let mut ids = ids
-            .iter()
-            .map(|it| session_id(it))
-            .collect::<Result<Vec<_>, _>>()?;
+        let ids = ids.iter().map(|it| session_id(it));
+        let mut ids = ids.collect::<Result<Vec<_>, _>>()?;
         ids.sort();
         Ok(ids)
     }
-
-    fn change_session(
-        &self,
-        statement: &str,
-        id: &SessionId,
-        value: &dyn ToSql,
-    ) -> Result<(), CatalogueError> {
-        let changed = self
-            .connection()
-            .execute(statement, params![id.as_str(), value])?;
-        if changed == 0 {
-            return Err(CatalogueError::NoSession);
-        }
-        Ok(())
-    }
 }
+
+/// Ended sessions that stay listed, however many end within a day.
+const MAX_ENDED: i64 = 4_096;
 
 /// Keeps the highest run and epoch of the rows that are about to be deleted.
 pub(super) fn remember_counters(
@@ -370,6 +373,14 @@ impl RawSession {
     }
 }
 
+/// Counters grow by one at a time and never get near the end of i64.
+fn counter(value: u64) -> i64 {
+    i64::try_from(value).unwrap_or(i64::MAX)
+}
+
 fn session_id(text: &str) -> Result<SessionId, CatalogueError> {
     SessionId::parse(text).map_err(|_| CatalogueError::Unreadable { what: "session id" })
 }
+
+#[cfg(test)]
+mod tests;

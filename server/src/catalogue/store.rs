@@ -76,10 +76,11 @@ impl Store {
     pub async fn put_alignment(
         &self,
         session: &SessionId,
+        run: u64,
         alignment: StoredAlignment,
     ) -> Result<(), CatalogueError> {
         let id = session.clone();
-        self.commit(move |it| it.put_alignment(&id, &alignment))
+        self.commit(move |it| it.put_alignment(&id, run, &alignment))
             .await
     }
 
@@ -88,9 +89,13 @@ impl Store {
     /// # Errors
     ///
     /// As there.
-    pub async fn forget_alignment(&self, session: &SessionId) -> Result<(), CatalogueError> {
+    pub async fn forget_alignment(
+        &self,
+        session: &SessionId,
+        run: u64,
+    ) -> Result<(), CatalogueError> {
         let id = session.clone();
-        self.commit(move |it| it.forget_alignment(&id)).await
+        self.commit(move |it| it.forget_alignment(&id, run)).await
     }
 
     /// As [`Catalogue::create_session`].
@@ -122,8 +127,12 @@ impl Store {
     /// # Errors
     ///
     /// As there.
-    pub async fn sessions(&self) -> Result<Vec<SessionRow>, CatalogueError> {
-        self.commit(Catalogue::sessions).await
+    pub async fn sessions(
+        &self,
+        after: String,
+        limit: usize,
+    ) -> Result<Vec<SessionRow>, CatalogueError> {
+        self.commit(move |it| it.sessions(&after, limit)).await
     }
 
     /// As [`Catalogue::begin_runs`].
@@ -159,10 +168,12 @@ impl Store {
     pub async fn end_session(
         &self,
         session: &SessionId,
+        run: u64,
         now_nanos: i64,
     ) -> Result<(), CatalogueError> {
         let id = session.clone();
-        self.commit(move |it| it.end_session(&id, now_nanos)).await
+        self.commit(move |it| it.end_session(&id, run, now_nanos))
+            .await
     }
 
     /// As [`Catalogue::collect_sessions`].

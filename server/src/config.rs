@@ -1,0 +1,438 @@
+//! The server's configuration: one value, complete and checked before any port is bound.
+//!
+//! Defaults, then the file, then the environment, then flags ([`layers`]); unknown keys are refused by name.
+//! `deploy/frontalis.toml` says what each key does, its unit and its default.
+
+pub mod layers;
+mod memory;
+
+use std::{net::SocketAddr, path::PathBuf, time::Duration};
+
+use serde::{Deserialize, Serialize};
+
+pub use memory::{MemoryItem, worst_case};
+
+const KIB: u64 = 1024;
+const MIB: u64 = 1024 * KIB;
+
+/// In place of a directory: everything is kept in memory and gone with the process.
+pub const IN_MEMORY: &str = ":memory:";
+
+/// Everything that can be chosen about a server.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Config {
+    /// Address of the one port.
+    pub listen: SocketAddr,
+    /// Where actors and sessions are kept, or [`IN_MEMORY`].
+    pub data_dir: String,
+    /// Accept a bind other than loopback although there is neither TLS nor authentication.
+    pub allow_insecure: bool,
+    /// Filter of the log, as `tracing_subscriber::EnvFilter` reads it.
+    pub log: String,
+    /// How long a drain may take before what is still open is cut, seconds.
+    pub shutdown_grace_secs: u64,
+    /// The worst case computed from the limits must stay below this, MiB.
+    pub memory_budget_mib: u64,
+    /// Threads for imports, exports and loading actors.
+    pub workers: u64,
+    /// How long ended and never used sessions are kept, hours.
+    pub session_retention_hours: u64,
+    /// What is refused beyond which number.
+    pub limits: Limits,
+    /// Buffers and deadlines of connections.
+    pub transport: Transport,
+}
+
+/// Limits of what clients may make the server hold (CONTRACTS O-1, D-18).
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Limits {
+    /// Open connections.
+    pub connections: u64,
+    /// Open connections of one address.
+    pub connections_per_peer: u64,
+    /// Open streams of one connection.
+    pub streams_per_connection: u32,
+    /// Sessions that have not ended.
+    pub sessions: u64,
+    /// Subscribers of one session.
+    pub subscribers_per_session: u64,
+    /// Subscribers of all sessions.
+    pub subscribers: u64,
+    /// Frames that wait for their solve, one session.
+    pub waiting_frames: u64,
+    /// Bytes of those frames, MiB.
+    pub waiting_mib: u64,
+    /// Samples kept for subscribers who come back, one session, MiB.
+    pub window_mib: u64,
+    /// Waiting frames and windows of all sessions, MiB.
+    pub session_memory_mib: u64,
+    /// Frames a second that a live publisher may send.
+    pub frame_rate_hz: u64,
+    /// Largest message of a publisher, KiB.
+    pub message_kib: u64,
+    /// Largest actor package, MiB.
+    pub package_mib: u64,
+    /// Imports at once.
+    pub imports: u64,
+    /// Actors that stay loaded besides those in use.
+    pub cached_actors: u64,
+}
+
+/// Buffers and deadlines of connections (CONTRACTS D-20, D-25, S-9).
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Transport {
+    /// Time between HTTP/2 pings, seconds.
+    pub keepalive_interval_secs: u64,
+    /// A peer that does not answer a ping for so long is gone, seconds.
+    pub keepalive_timeout_secs: u64,
+    /// Time for the HTTP/2 preface or the HTTP/1 headers to arrive, seconds.
+    pub header_deadline_secs: u64,
+    /// What a peer may send ahead on one stream, KiB.
+    pub stream_window_kib: u64,
+    /// What a peer may send ahead on one connection, KiB.
+    pub connection_window_kib: u64,
+    /// What is buffered for one stream before its writer waits, KiB.
+    pub send_buffer_kib: u64,
+    /// The system's send buffer of one connection, KiB.
+    pub socket_send_buffer_kib: u64,
+    /// Headers of one request, KiB.
+    pub header_list_kib: u64,
+}
+
+impl Default for Config {
+    fn default() -> Self {
+        Self {
+            listen: SocketAddr::from(([127, 0, 0, 1], 7400)),
+            data_dir: "frontalis-data".to_owned(),
+            allow_insecure: false,
+            log: "info".to_owned(),
+            shutdown_grace_secs: 5,
+            memory_budget_mib: 12_288,
+            workers: 2,
+            session_retention_hours: 24,
+            limits: Limits::default(),
+            transport: Transport::default(),
+        }
+    }
+}
+
+impl Default for Limits {
+    fn default() -> Self {
+        Self {
+            connections: 2_048,
+            connections_per_peer: 1_024,
+            streams_per_connection: 256,
+            sessions: 512,
+            subscribers_per_session: 1_024,
+            subscribers: 4_096,
+            waiting_frames: 512,
+            waiting_mib: 16,
+            window_mib: 16,
+            session_memory_mib: 4_096,
+            frame_rate_hz: 250,
+            message_kib: 1_024,
+            package_mib: 64,
+            imports: 2,
+            cached_actors: 16,
+        }
+    }
+}
+
+impl Default for Transport {
+    fn default() -> Self {
+        Self {
+            keepalive_interval_secs: 5,
+            keepalive_timeout_secs: 10,
+            header_deadline_secs: 5,
+            stream_window_kib: 64,
+            connection_window_kib: 256,
+            send_buffer_kib: 32,
+            socket_send_buffer_kib: 128,
+            header_list_kib: 16,
+        }
+    }
+}
+
+/// Why a configuration is refused.
+#[derive(Debug, thiserror::Error)]
+pub enum ConfigError {
+    /// The file cannot be read.
+    #[error("the configuration file {} cannot be read", path.display())]
+    File {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        #[source]
+        cause: std::io::Error,
+    },
+    /// The file is not TOML.
+    #[error("the configuration file {} is not valid TOML", path.display())]
+    Syntax {
+        /// The file.
+        path: PathBuf,
+        /// What the parser says.
+        #[source]
+        cause: toml::de::Error,
+    },
+    /// A key is unknown or its value has another type.
+    #[error("the configuration is refused")]
+    Key(#[source] toml::de::Error),
+    /// An environment variable names no key.
+    #[error("the environment variable {name} names no configuration key")]
+    UnknownVariable {
+        /// Name of the variable.
+        name: String,
+    },
+    /// An environment variable's value has another type than its key.
+    #[error("the environment variable {name} must be {wanted}")]
+    Variable {
+        /// Name of the variable.
+        name: String,
+        /// The type of its key.
+        wanted: &'static str,
+    },
+    /// A value is out of its range.
+    #[error("{key} is {found}, it must be within {least}..={most}")]
+    Range {
+        /// The key.
+        key: &'static str,
+        /// Its value.
+        found: u64,
+        /// Smallest value.
+        least: u64,
+        /// Largest value.
+        most: u64,
+    },
+    /// A bind that others can reach, without protection.
+    #[error(
+        "listen is {listen}: an address other than loopback has neither TLS nor authentication; \
+         give --allow-insecure to accept that"
+    )]
+    Insecure {
+        /// The address.
+        listen: SocketAddr,
+    },
+    /// The limits allow more memory than the budget.
+    #[error(
+        "the limits allow {needed_mib} MiB in the worst case, memory_budget_mib is {budget_mib}; \
+         lower the limits or raise the budget"
+    )]
+    Memory {
+        /// Worst case, MiB.
+        needed_mib: u64,
+        /// The budget, MiB.
+        budget_mib: u64,
+    },
+}
+
+impl Config {
+    /// Checks every value and the worst-case memory.
+    ///
+    /// # Errors
+    ///
+    /// The first value that is refused, by its key.
+    pub fn validate(&self) -> Result<(), ConfigError> {
+        for (key, found, least, most) in self.ranges() {
+            if found < least || found > most {
+                return Err(ConfigError::Range {
+                    key,
+                    found,
+                    least,
+                    most,
+                });
+            }
+        }
+        if self.is_exposed() && !self.allow_insecure {
+            return Err(ConfigError::Insecure {
+                listen: self.listen,
+            });
+        }
+        let needed = worst_case(self)
+            .iter()
+            .map(|it| it.bytes)
+            .fold(0, u64::saturating_add);
+        if needed > self.memory_budget_mib.saturating_mul(MIB) {
+            return Err(ConfigError::Memory {
+                needed_mib: needed / MIB,
+                budget_mib: self.memory_budget_mib,
+            });
+        }
+        Ok(())
+    }
+
+    /// Whether others than this machine can reach the port.
+    pub fn is_exposed(&self) -> bool {
+        !self.listen.ip().is_loopback()
+    }
+
+    /// The data directory, or none to keep everything in memory.
+    pub fn directory(&self) -> Option<PathBuf> {
+        (self.data_dir != IN_MEMORY).then(|| PathBuf::from(&self.data_dir))
+    }
+
+    /// How long a drain may take.
+    pub fn shutdown_grace(&self) -> Duration {
+        Duration::from_secs(self.shutdown_grace_secs)
+    }
+
+    /// The configuration as a file would say it.
+    pub fn to_toml(&self) -> String {
+        toml::to_string(self).expect("invariant: every field has a TOML form")
+    }
+
+    fn ranges(&self) -> [(&'static str, u64, u64, u64); 27] {
+        let (l, t) = (&self.limits, &self.transport);
+        [
+            ("shutdown_grace_secs", self.shutdown_grace_secs, 1, 300),
+            ("memory_budget_mib", self.memory_budget_mib, 64, 1 << 24),
+            ("workers", self.workers, 1, 256),
+            (
+                "session_retention_hours",
+                self.session_retention_hours,
+                1,
+                8_760,
+            ),
+            ("limits.connections", l.connections, 1, 65_536),
+            (
+                "limits.connections_per_peer",
+                l.connections_per_peer,
+                1,
+                65_536,
+            ),
+            (
+                "limits.streams_per_connection",
+                l.streams_per_connection.into(),
+                1,
+                65_536,
+            ),
+            ("limits.sessions", l.sessions, 1, 65_536),
+            (
+                "limits.subscribers_per_session",
+                l.subscribers_per_session,
+                1,
+                65_536,
+            ),
+            ("limits.subscribers", l.subscribers, 1, 1 << 20),
+            ("limits.waiting_frames", l.waiting_frames, 1, 65_536),
+            ("limits.waiting_mib", l.waiting_mib, 1, 1_024),
+            ("limits.window_mib", l.window_mib, 1, 1_024),
+            (
+                "limits.session_memory_mib",
+                l.session_memory_mib,
+                1,
+                1 << 20,
+            ),
+            ("limits.frame_rate_hz", l.frame_rate_hz, 1, 10_000),
+            // A frame of 1,024 markers is 12 KiB; the largest message must take a whole package chunk.
+            ("limits.message_kib", l.message_kib, 64, 16_384),
+            ("limits.package_mib", l.package_mib, 1, 1_024),
+            ("limits.imports", l.imports, 1, 64),
+            ("limits.cached_actors", l.cached_actors, 1, 4_096),
+            (
+                "transport.keepalive_interval_secs",
+                t.keepalive_interval_secs,
+                1,
+                3_600,
+            ),
+            (
+                "transport.keepalive_timeout_secs",
+                t.keepalive_timeout_secs,
+                1,
+                3_600,
+            ),
+            (
+                "transport.header_deadline_secs",
+                t.header_deadline_secs,
+                1,
+                60,
+            ),
+            (
+                "transport.stream_window_kib",
+                t.stream_window_kib,
+                16,
+                16_384,
+            ),
+            (
+                "transport.connection_window_kib",
+                t.connection_window_kib,
+                64,
+                65_536,
+            ),
+            ("transport.send_buffer_kib", t.send_buffer_kib, 4, 16_384),
+            (
+                "transport.socket_send_buffer_kib",
+                t.socket_send_buffer_kib,
+                4,
+                16_384,
+            ),
+            ("transport.header_list_kib", t.header_list_kib, 4, 1_024),
+        ]
+    }
+}
+
+impl Limits {
+    /// Largest message of a publisher, bytes.
+    pub fn message_bytes(&self) -> usize {
+        bytes(self.message_kib, KIB)
+    }
+
+    /// Largest actor package, bytes.
+    pub fn package_bytes(&self) -> usize {
+        bytes(self.package_mib, MIB)
+    }
+}
+
+/// A number of units as bytes, saturating.
+fn bytes(count: u64, unit: u64) -> usize {
+    usize::try_from(count.saturating_mul(unit)).unwrap_or(usize::MAX)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_defaults_are_accepted() {
+        Config::default().validate().unwrap();
+    }
+
+    #[test]
+    fn an_address_that_others_can_reach_needs_allow_insecure() {
+        let mut config = Config {
+            listen: "0.0.0.0:7400".parse().unwrap(),
+            ..Config::default()
+        };
+        assert!(matches!(
+            config.validate(),
+            Err(ConfigError::Insecure { .. })
+        ));
+        config.allow_insecure = true;
+        config.validate().unwrap();
+    }
+
+    #[test]
+    fn limits_above_the_budget_are_refused_with_both_figures() {
+        let mut config = Config::default();
+        config.memory_budget_mib = 1_024;
+        let message = config.validate().unwrap_err().to_string();
+        assert!(message.contains("memory_budget_mib is 1024"), "{message}");
+    }
+
+    #[test]
+    fn a_value_out_of_range_is_named() {
+        let mut config = Config::default();
+        config.limits.sessions = 0;
+        let message = config.validate().unwrap_err().to_string();
+        assert_eq!(message, "limits.sessions is 0, it must be within 1..=65536");
+    }
+
+    #[test]
+    fn the_printed_form_reads_back_as_the_same_configuration() {
+        let config = Config::default();
+        let back: Config = toml::from_str(&config.to_toml()).unwrap();
+        assert_eq!(back, config);
+    }
+}

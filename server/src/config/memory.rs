@@ -1,0 +1,61 @@
+//! The most memory that clients can make the server hold, added up from its limits (CONTRACTS O-2).
+//!
+//! The figures are upper bounds by purpose: each says what would be held if every limit were reached at once.
+
+use super::{Config, KIB, MIB};
+
+/// A package of one import is held as uploaded, inflated, and as an actor.
+const IMPORT_COPIES: u64 = 4;
+
+/// An actor in memory: a face of 50,000 vertices with 60 muscles in f64 takes 72 MB.
+const ACTOR_BYTES: u64 = 72 * MIB;
+
+/// Beside its buffers, a subscriber of every frame may hold so much (CONTRACTS D-20).
+const SUBSCRIBER_BYTES: u64 = 256 * KIB;
+
+/// Program, database cache, runtime.
+const FIXED_BYTES: u64 = 128 * MIB;
+
+/// One line of the sum.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct MemoryItem {
+    /// What holds it.
+    pub what: &'static str,
+    /// How much at most, bytes.
+    pub bytes: u64,
+}
+
+/// The worst case, item by item.
+pub fn worst_case(config: &Config) -> Vec<MemoryItem> {
+    let (limits, transport) = (&config.limits, &config.transport);
+    let product = |a: u64, b: u64| a.saturating_mul(b);
+    let per_session = product(limits.waiting_mib.saturating_add(limits.window_mib), MIB);
+    let sessions =
+        product(limits.sessions, per_session).min(product(limits.session_memory_mib, MIB));
+    let per_connection = transport
+        .connection_window_kib
+        .saturating_add(transport.header_list_kib)
+        .saturating_add(transport.send_buffer_kib);
+    // One publisher a session is in the middle of a message.
+    let messages = product(product(limits.sessions, limits.message_kib), KIB);
+    let imports = product(
+        product(limits.imports, limits.package_mib),
+        IMPORT_COPIES * MIB,
+    );
+    vec![
+        item("waiting frames and windows of all sessions", sessions),
+        item("messages on their way in", messages),
+        item("subscribers", product(limits.subscribers, SUBSCRIBER_BYTES)),
+        item(
+            "connections",
+            product(limits.connections, product(per_connection, KIB)),
+        ),
+        item("imports", imports),
+        item("loaded actors", product(limits.cached_actors, ACTOR_BYTES)),
+        item("the program itself", FIXED_BYTES),
+    ]
+}
+
+fn item(what: &'static str, bytes: u64) -> MemoryItem {
+    MemoryItem { what, bytes }
+}

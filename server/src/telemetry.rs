@@ -1,0 +1,330 @@
+//! Figures of one server, as Prometheus reads them, and the set-up of its log.
+//!
+//! Each server has its own registry, so that two servers in one process do not add up.
+//! No label holds a client's text: labels are words of this file (CONTRACTS S-14).
+
+use std::sync::{
+    Arc,
+    atomic::{AtomicI64, AtomicU64, Ordering},
+};
+
+use prometheus_client::{
+    encoding::{EncodeLabelSet, EncodeLabelValue, text::encode},
+    metrics::{counter::Counter, family::Family, gauge::Gauge, info::Info},
+    registry::{Registry, Unit},
+};
+
+/// Counters and gauges; cheap to clone, clones share all of it.
+#[derive(Clone, Debug)]
+pub struct Metrics(Arc<Inner>);
+
+#[derive(Debug)]
+struct Inner {
+    registry: Registry,
+    connections: Gauge,
+    connections_accepted: Counter,
+    connections_refused: Family<RefusedLabel, Counter>,
+    accept_failures: Counter,
+    requests: Family<ProtocolLabel, Counter>,
+    panics: Counter,
+    sessions: Family<SessionLabel, Gauge>,
+    frames: Family<FramesLabel, Gauge<i64, AtomicI64>>,
+    subscribers: Gauge,
+    subscriber_samples: Family<SamplesLabel, Gauge<i64, AtomicI64>>,
+    ready: Gauge,
+    insecure: Gauge,
+    worst_case_bytes: Gauge<u64, AtomicU64>,
+}
+
+/// Which limit refused a connection.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, EncodeLabelValue)]
+pub enum ConnectionLimit {
+    /// `limits.connections`.
+    Connections,
+    /// `limits.connections_per_peer`.
+    ConnectionsPerPeer,
+}
+
+/// How a request was spoken.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, EncodeLabelValue)]
+pub enum Protocol {
+    /// gRPC.
+    Grpc,
+    /// Plain HTTP.
+    Http,
+}
+
+#[derive(Clone, Debug, PartialEq, Eq, Hash, EncodeLabelSet)]
+struct RefusedLabel {
+    limit: ConnectionLimit,
+}
+
+#[derive(Clone, Debug, PartialEq, Eq, Hash, EncodeLabelSet)]
+struct ProtocolLabel {
+    protocol: Protocol,
+}
+
+#[derive(Clone, Debug, PartialEq, Eq, Hash, EncodeLabelSet)]
+struct SessionLabel {
+    state: &'static str,
+}
+
+#[derive(Clone, Debug, PartialEq, Eq, Hash, EncodeLabelSet)]
+struct FramesLabel {
+    what: &'static str,
+}
+
+#[derive(Clone, Debug, PartialEq, Eq, Hash, EncodeLabelSet)]
+struct SamplesLabel {
+    what: &'static str,
+}
+
+/// Figures of the sessions that are listed, taken when somebody asks.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct SessionFigures {
+    /// How many are in each state.
+    pub states: Vec<(&'static str, u64)>,
+    /// Frames received, rejected, shed, missing.
+    pub frames: Vec<(&'static str, u64)>,
+    /// Subscribers of all of them.
+    pub subscribers: u64,
+    /// Samples sent and skipped.
+    pub samples: Vec<(&'static str, u64)>,
+}
+
+impl Metrics {
+    /// Registers every figure of one server.
+    pub fn new(version: &'static str) -> Self {
+        let mut registry = Registry::with_prefix("frontalis");
+        let info = Info::new([("version", version)]);
+        registry.register("build", "Which server this is", info);
+        let mut inner = Inner {
+            registry,
+            connections: Gauge::default(),
+            connections_accepted: Counter::default(),
+            connections_refused: Family::default(),
+            accept_failures: Counter::default(),
+            requests: Family::default(),
+            panics: Counter::default(),
+            sessions: Family::default(),
+            frames: Family::default(),
+            subscribers: Gauge::default(),
+            subscriber_samples: Family::default(),
+            ready: Gauge::default(),
+            insecure: Gauge::default(),
+            worst_case_bytes: Gauge::default(),
+        };
+        inner.register();
+        Self(Arc::new(inner))
+    }
+
+    /// A connection was accepted.
+    pub fn connection_opened(&self) {
+        self.0.connections_accepted.inc();
+        self.0.connections.inc();
+    }
+
+    /// A connection is gone.
+    pub fn connection_closed(&self) {
+        self.0.connections.dec();
+    }
+
+    /// A connection was refused.
+    pub fn connection_refused(&self, limit: ConnectionLimit) {
+        self.0
+            .connections_refused
+            .get_or_create(&RefusedLabel { limit })
+            .inc();
+    }
+
+    /// The system could not hand over a connection.
+    pub fn accept_failed(&self) {
+        self.0.accept_failures.inc();
+    }
+
+    /// A request came in.
+    pub fn request(&self, protocol: Protocol) {
+        self.0
+            .requests
+            .get_or_create(&ProtocolLabel { protocol })
+            .inc();
+    }
+
+    /// A handler panicked.
+    pub fn panicked(&self) {
+        self.0.panics.inc();
+    }
+
+    /// Whether new sessions are accepted.
+    pub fn set_ready(&self, ready: bool) {
+        self.0.ready.set(ready.into());
+    }
+
+    /// Whether others can reach the port without protection.
+    pub fn set_insecure(&self, insecure: bool) {
+        self.0.insecure.set(insecure.into());
+    }
+
+    /// The worst case computed from the limits.
+    pub fn set_worst_case_bytes(&self, bytes: u64) {
+        self.0.worst_case_bytes.set(bytes);
+    }
+
+    /// Takes over the figures of the sessions.
+    pub fn set_sessions(&self, figures: &SessionFigures) {
+        for &(state, count) in &figures.states {
+            self.0
+                .sessions
+                .get_or_create(&SessionLabel { state })
+                .set(clamped(count));
+        }
+        for &(what, count) in &figures.frames {
+            self.0
+                .frames
+                .get_or_create(&FramesLabel { what })
+                .set(clamped(count));
+        }
+        for &(what, count) in &figures.samples {
+            self.0
+                .subscriber_samples
+                .get_or_create(&SamplesLabel { what })
+                .set(clamped(count));
+        }
+        self.0.subscribers.set(clamped(figures.subscribers));
+    }
+
+    /// Connections that are open.
+    pub fn open_connections(&self) -> u64 {
+        self.0.connections.get().unsigned_abs()
+    }
+
+    /// Handlers that panicked so far.
+    pub fn panics(&self) -> u64 {
+        self.0.panics.inner().load(Ordering::Relaxed)
+    }
+
+    /// Every figure in the OpenMetrics text format.
+    pub fn to_text(&self) -> String {
+        let mut text = String::new();
+        encode(&mut text, &self.0.registry).expect("invariant: writing to a string does not fail");
+        text
+    }
+}
+
+impl Inner {
+    fn register(&mut self) {
+        let it = &mut self.registry;
+        it.register("connections", "Open connections", self.connections.clone());
+        it.register(
+            "connections_accepted",
+            "Connections accepted since the start",
+            self.connections_accepted.clone(),
+        );
+        it.register(
+            "connections_refused",
+            "Connections closed at once, by the limit that refused them",
+            self.connections_refused.clone(),
+        );
+        it.register(
+            "accept_failures",
+            "Connections that the system could not hand over",
+            self.accept_failures.clone(),
+        );
+        it.register(
+            "requests",
+            "Requests since the start",
+            self.requests.clone(),
+        );
+        it.register("panics", "Handlers that panicked", self.panics.clone());
+        it.register(
+            "sessions",
+            "Listed sessions by state",
+            self.sessions.clone(),
+        );
+        it.register(
+            "session_frames",
+            "Frames of the listed sessions by what became of them",
+            self.frames.clone(),
+        );
+        it.register(
+            "subscribers",
+            "Subscribers of all sessions",
+            self.subscribers.clone(),
+        );
+        it.register(
+            "subscriber_samples",
+            "Samples of the present subscribers by what became of them",
+            self.subscriber_samples.clone(),
+        );
+        it.register("ready", "1: new sessions are accepted", self.ready.clone());
+        it.register(
+            "insecure",
+            "1: others can reach the port, without TLS and authentication",
+            self.insecure.clone(),
+        );
+        it.register_with_unit(
+            "memory_worst_case",
+            "What the limits allow clients to make the server hold",
+            Unit::Bytes,
+            self.worst_case_bytes.clone(),
+        );
+    }
+}
+
+fn clamped(count: u64) -> i64 {
+    i64::try_from(count).unwrap_or(i64::MAX)
+}
+
+/// Sends the log to standard error, as `filter` says. Client text in it has its control characters escaped.
+///
+/// # Errors
+///
+/// When the filter cannot be read, or the process has a log already.
+pub fn start_log(filter: &str) -> Result<(), LogError> {
+    let filter = tracing_subscriber::EnvFilter::builder()
+        .parse(filter)
+        .map_err(|error| LogError::Filter(error.to_string()))?;
+    tracing_subscriber::fmt()
+        .with_env_filter(filter)
+        .with_writer(std::io::stderr)
+        .try_init()
+        .map_err(|error| LogError::Set(error.to_string()))
+}
+
+/// Why there is no log.
+#[derive(Debug, thiserror::Error)]
+pub enum LogError {
+    /// The filter cannot be read.
+    #[error("the log filter cannot be read: {0}")]
+    Filter(String),
+    /// The process has one already.
+    #[error("the log cannot be set up: {0}")]
+    Set(String),
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn figures_appear_in_the_text_and_servers_do_not_share_them() {
+        let (one, other) = (Metrics::new("1"), Metrics::new("1"));
+        one.connection_opened();
+        one.request(Protocol::Grpc);
+        one.set_sessions(&SessionFigures {
+            states: vec![("live", 3)],
+            ..SessionFigures::default()
+        });
+        let text = one.to_text();
+        assert!(text.contains("frontalis_connections 1\n"), "{text}");
+        assert!(
+            text.contains("frontalis_requests_total{protocol=\"Grpc\"} 1\n"),
+            "{text}"
+        );
+        assert!(
+            text.contains("frontalis_sessions{state=\"live\"} 3\n"),
+            "{text}"
+        );
+        assert!(other.to_text().contains("frontalis_connections 0\n"));
+    }
+}
