@@ -1,3 +1,5 @@
+//! Actors in the catalogue: revisions, erasure, and what an interrupted import leaves behind.
+
 use frontalis_analysis::face::{muscle::Muscle, region::FaceRegion};
 
 use super::*;

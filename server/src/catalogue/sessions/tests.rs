@@ -1,3 +1,5 @@
+//! Sessions in the catalogue: epochs, alignments, and what a restart finds.
+
 use std::time::Duration;
 
 use frontalis_analysis::{
