@@ -24,8 +24,8 @@ pub const MAX_MUSCLES: usize = 256;
 pub const MAX_VERTICES: usize = 200_000;
 /// Most triangles of a neutral face.
 pub const MAX_TRIANGLES: usize = 400_000;
-/// Most muscles × vertices: one displacement takes 24 bytes, so a basis stays below 400 MB.
-pub const MAX_DISPLACEMENTS: usize = 16_000_000;
+/// Most muscles × vertices: one displacement takes 24 bytes, so a basis stays below 200 MB.
+pub const MAX_DISPLACEMENTS: usize = 8_000_000;
 
 /// Where an artist put a marker.
 #[derive(Clone, Debug, PartialEq)]
