@@ -145,7 +145,7 @@ fn every_marker_sits_where_the_independent_one_does() {
             vector(&row[2..5]),
             &marker.name,
         );
-        let vertices = [5, 6, 7].map(|field| row[field].parse().unwrap());
+        let vertices = [5, 6, 7].map(|field| row[field].parse::<u32>().unwrap());
         assert_eq!(
             parts.mesh.triangles[bound.triangle], vertices,
             "{}",
