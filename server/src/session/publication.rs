@@ -27,7 +27,7 @@ pub struct Grant {
     /// The grant's number, durable before it is used here.
     pub epoch: u64,
     /// Unit of the coordinates.
-    pub unit: frontalis_analysis::space::LengthUnit,
+    pub unit: LengthUnit,
     /// Markers in the order of the coordinates; empty: the actor's own order.
     pub marker_names: Vec<String>,
     /// What happens when the session cannot keep up.
@@ -108,8 +108,99 @@ pub struct Watermarks {
     pub shed_frames: u64,
 }
 
-/// A publisher's hold on a session. Dropping it keeps the lease until it times out; [`Self::close`] gives it back.
+/// A publisher's hold on a session. Dropping it keeps the lease until it times out; [`Self::release`] gives it back.
 pub struct Publication {
-    #[expect(dead_code, reason = "signature first")]
-    clock: ServerClock,
+    pub(super) session: Arc<Shared>,
+    pub(super) mailbox: Arc<Mailbox>,
+    pub(super) granted: Granted,
+}
+
+impl Publication {
+    /// What the publisher was given.
+    pub fn granted(&self) -> &Granted {
+        &self.granted
+    }
+
+    /// Offers a valid frame.
+    ///
+    /// # Errors
+    ///
+    /// [`PublishEnd`] when the publication is over.
+    pub fn offer(&self, frame: IncomingFrame) -> Result<Offer, PublishEnd> {
+        self.check()?;
+        let session = &self.session;
+        let now_nanos = session.clock.now_nanos();
+        let mut intake = session.intake();
+        let offer = intake.offer(&self.mailbox, frame, &session.clock, now_nanos)?;
+        drop(intake);
+        if matches!(offer, Offer::Taken) {
+            session.hub.frame_received(now_nanos);
+            session.work.notify_one();
+        }
+        Ok(offer)
+    }
+
+    /// Counts a frame that is not valid in itself.
+    ///
+    /// # Errors
+    ///
+    /// [`PublishEnd`] when the publication is over, by this frame or before.
+    pub fn refuse(&self, rejection: Rejection) -> Result<Offer, PublishEnd> {
+        self.check()?;
+        self.session.intake().refuse(&self.mailbox, rejection)
+    }
+
+    /// Notes a sign of life.
+    ///
+    /// # Errors
+    ///
+    /// [`PublishEnd`] when the publication is over.
+    pub fn keep_alive(&self) -> Result<(), PublishEnd> {
+        self.check()?;
+        let now_nanos = self.session.clock.now_nanos();
+        self.session.intake().renew(&self.mailbox, now_nanos)
+    }
+
+    /// Whether the publication is still in force.
+    ///
+    /// # Errors
+    ///
+    /// [`PublishEnd`] when it is over.
+    pub fn check(&self) -> Result<(), PublishEnd> {
+        self.mailbox.ended().map_or(Ok(()), Err)
+    }
+
+    /// How far the session got.
+    pub fn watermarks(&self) -> Watermarks {
+        let intake = self.session.intake();
+        Watermarks {
+            accepted_through: intake.accepted_through(),
+            durable_through: 0,
+            shed_frames: intake.counts().shed,
+        }
+    }
+
+    /// Frames of this publication that turned out unusable after they were taken.
+    pub fn take_rejections(&self) -> Vec<Rejection> {
+        self.mailbox.take_rejections()
+    }
+
+    /// Gives the session back at once, for another publisher. The frames taken so far are still solved;
+    /// [`Self::is_finished`] says when.
+    pub fn release(&self) {
+        if !self.session.intake().release(&self.mailbox) {
+            self.mailbox.finish();
+        }
+        self.session.work.notify_one();
+    }
+
+    /// Whether all frames of a released publication are done.
+    pub fn is_finished(&self) -> bool {
+        self.mailbox.is_finished()
+    }
+
+    /// Waits until there may be news: room, a rejection, the end. Nothing is lost when the future is dropped.
+    pub async fn woken(&self) {
+        self.mailbox.woken().await;
+    }
 }

@@ -1,0 +1,39 @@
+//! What happens to a session between two frames, in the order of the frames around it.
+
+use std::sync::Arc;
+
+use frontalis_analysis::face::actor::Actor;
+use tokio::sync::oneshot;
+
+use super::{
+    mailbox::Mailbox,
+    settings::{SessionSettings, StreamShape},
+};
+
+/// A request that waits in the session's queue.
+#[derive(Debug)]
+pub(super) enum Command {
+    /// The frames that follow come from this publisher.
+    Source(Source),
+    /// The publisher closed its side; its mailbox is told when its frames are done.
+    Finish(Arc<Mailbox>),
+    /// Settings or actor change.
+    Update {
+        settings: SessionSettings,
+        actor: Arc<Actor>,
+        actor_revision: u32,
+        done: oneshot::Sender<()>,
+    },
+    /// The next usable frames are the neutral face.
+    Recenter { done: oneshot::Sender<()> },
+    /// Nothing follows.
+    End,
+}
+
+/// Where frames come from.
+#[derive(Debug)]
+pub(super) struct Source {
+    pub(super) shape: StreamShape,
+    pub(super) rate_hz: f64,
+    pub(super) mailbox: Arc<Mailbox>,
+}

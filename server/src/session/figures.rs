@@ -1,0 +1,174 @@
+//! What a session knows about itself: settings in use, alignment, ranges and times. Written by its task, read by status.
+
+use std::sync::Arc;
+
+use frontalis_analysis::{
+    curve::CurveSample, face::actor::Actor, marker_analysis::alignment::Alignment,
+};
+
+use super::{
+    settings::{SessionSettings, SessionSpec},
+    status::{AlignmentReport, ControlRange, Latency, StageLatency},
+};
+
+/// Times kept a stage.
+const KEPT_TIMES: usize = 1_024;
+
+/// A session's knowledge about itself.
+#[derive(Debug)]
+pub(super) struct Figures {
+    pub(super) settings: SessionSettings,
+    pub(super) actor: Arc<Actor>,
+    pub(super) actor_revision: u32,
+    pub(super) nominal_rate_hz: f64,
+    pub(super) alignment: Option<AlignmentReport>,
+    pub(super) alignment_problem: Option<&'static str>,
+    pub(super) unknown_markers: Vec<String>,
+    ranges: Vec<(f64, f64)>,
+    stages: [Times; 4],
+}
+
+/// When a frame passed each station, server clock.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Passage {
+    pub(super) received_nanos: i64,
+    pub(super) started_nanos: i64,
+    pub(super) solved_nanos: i64,
+    pub(super) published_nanos: i64,
+}
+
+const STAGES: [&str; 4] = ["queued", "solved", "published", "total"];
+
+impl Figures {
+    pub(super) fn new(spec: &SessionSpec) -> Self {
+        let restored = spec.restored.as_ref();
+        Self {
+            settings: spec.settings.clone(),
+            actor: Arc::clone(&spec.actor),
+            actor_revision: spec.actor_revision,
+            nominal_rate_hz: 0.0,
+            alignment: restored.map(|it| report(&it.alignment)),
+            alignment_problem: None,
+            unknown_markers: Vec::new(),
+            ranges: Vec::new(),
+            stages: Default::default(),
+        }
+    }
+
+    pub(super) fn aligned(&mut self, alignment: &Alignment) {
+        self.alignment = Some(report(alignment));
+        self.alignment_problem = None;
+    }
+
+    pub(super) fn sampled(&mut self, sample: &CurveSample) {
+        self.ranges
+            .resize(sample.activations.len(), (f64::INFINITY, f64::NEG_INFINITY));
+        for ((min, max), x) in self.ranges.iter_mut().zip(&sample.activations) {
+            *min = min.min(*x);
+            *max = max.max(*x);
+        }
+    }
+
+    pub(super) fn passed(&mut self, passage: Passage) {
+        let Passage {
+            received_nanos,
+            started_nanos,
+            solved_nanos,
+            published_nanos,
+        } = passage;
+        let [queued, solved, published, total] = &mut self.stages;
+        queued.add(started_nanos - received_nanos);
+        solved.add(solved_nanos - started_nanos);
+        published.add(published_nanos - solved_nanos);
+        total.add(published_nanos - received_nanos);
+    }
+
+    pub(super) fn latencies(&self) -> Vec<StageLatency> {
+        let latency = |(stage, times): (&'static str, &Times)| StageLatency {
+            stage,
+            latency: times.latency(),
+        };
+        STAGES.into_iter().zip(&self.stages).map(latency).collect()
+    }
+
+    pub(super) fn ranges(&self) -> Vec<ControlRange> {
+        let muscles = self.actor.muscle_set().muscles().iter();
+        let range = |(muscle, (min, max)): (&_, &(f64, f64))| {
+            let muscle: &frontalis_analysis::face::muscle::Muscle = muscle;
+            ControlRange {
+                control: muscle.name.clone(),
+                min: *min,
+                max: *max,
+            }
+        };
+        muscles.zip(&self.ranges).map(range).collect()
+    }
+}
+
+fn report(alignment: &Alignment) -> AlignmentReport {
+    AlignmentReport {
+        scale: alignment.model_from_performance.scale,
+        rms_residual_cm: alignment.rms_residual_cm,
+        iterations: alignment.iterations,
+        n_markers: alignment.n_markers(),
+    }
+}
+
+/// The last times of one stage, in a ring.
+#[derive(Debug, Default)]
+struct Times {
+    micros: Vec<f32>,
+    next: usize,
+}
+
+impl Times {
+    fn add(&mut self, nanos: i64) {
+        // Three figures for a person: f32 is more than enough.
+        #[expect(clippy::cast_possible_truncation, reason = "rounded on purpose")]
+        let micros = (nanos.max(0) as f64 * 1e-3) as f32;
+        match self.micros.get_mut(self.next) {
+            Some(oldest) => *oldest = micros,
+            None => self.micros.push(micros),
+        }
+        self.next = (self.next + 1) % KEPT_TIMES;
+    }
+
+    fn latency(&self) -> Latency {
+        let mut sorted = self.micros.clone();
+        sorted.sort_unstable_by(f32::total_cmp);
+        let at = |percent: usize| {
+            let idx = (sorted.len() * percent / 100).min(sorted.len().saturating_sub(1));
+            sorted.get(idx).copied().map_or(0.0, f64::from)
+        };
+        Latency {
+            p50_micros: at(50),
+            p99_micros: at(99),
+            max_micros: at(100),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn percentiles_are_of_the_last_thousand() {
+        let mut times = Times::default();
+        for _ in 0..10 {
+            times.add(5_000_000_000);
+        }
+        for micros in 0..1_024 {
+            times.add(micros * 1_000);
+        }
+        let latency = times.latency();
+        assert!((latency.p50_micros - 512.0).abs() < 1e-3);
+        assert!((latency.p99_micros - 1_013.0).abs() < 1e-3);
+        assert!((latency.max_micros - 1_023.0).abs() < 1e-3);
+    }
+
+    #[test]
+    fn no_times_are_zero() {
+        assert_eq!(Times::default().latency(), Latency::default());
+    }
+}

@@ -1,0 +1,461 @@
+//! The door of a session: who may publish, which frames are taken, and what waits.
+//!
+//! A session has at most one publisher, by a lease that lives a while past its last message (CONTRACTS D-28 to D-30).
+//! Every frame is checked against the epoch of the lease, so that a fenced publisher has no effect (D-29).
+//! Kept under one std mutex by the session; pure, times are handed in.
+
+use std::{sync::Arc, time::Duration};
+
+use super::{
+    command::{Command, Source},
+    error::SessionError,
+    frame::{IncomingFrame, Rejection},
+    mailbox::Mailbox,
+    order::{FrameOrder, Verdict},
+    publication::{Grant, Ingest, Offer, PublishEnd, Wait},
+    queue::{MAX_WAITING_COMMANDS, WaitingFrame, Work, WorkQueue},
+    rate::{Admission, RateLimit, RateMeter},
+    settings::StreamShape,
+};
+use crate::{
+    clock::{ServerClock, nanos},
+    hub::{BufferBudget, GapCause},
+    name::PublisherId,
+};
+
+/// Unusable frames in a row that end a publication (CONTRACTS D-10).
+const MAX_CONSECUTIVE_REJECTS: u32 = 100;
+
+/// Why nothing more comes in.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) enum Closed {
+    Ended,
+    Failed { reason: String },
+    Draining,
+}
+
+impl Closed {
+    pub(super) fn error(&self) -> SessionError {
+        match self.clone() {
+            Self::Ended => SessionError::Ended,
+            Self::Failed { reason } => SessionError::Failed { reason },
+            Self::Draining => SessionError::Draining,
+        }
+    }
+
+    fn publish_end(&self) -> PublishEnd {
+        match self.clone() {
+            Self::Ended => PublishEnd::Ended,
+            Self::Failed { reason } => PublishEnd::Failed { reason },
+            Self::Draining => PublishEnd::Draining,
+        }
+    }
+}
+
+/// Counts since the run began.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct IntakeCounts {
+    pub(super) received: u64,
+    pub(super) rejected: u64,
+    pub(super) late: u64,
+    pub(super) duplicate: u64,
+    pub(super) shed: u64,
+    pub(super) missing: u64,
+    pub(super) partial_markers: u64,
+}
+
+/// How much may wait, and how fast it may come.
+#[derive(Clone, Debug)]
+pub(super) struct IntakeLimits {
+    pub(super) waiting_frames: usize,
+    pub(super) waiting_bytes: usize,
+    pub(super) live_rate_hz: f64,
+    pub(super) resend_span: Duration,
+    pub(super) budget: BufferBudget,
+}
+
+#[derive(Debug)]
+struct Lease {
+    publisher: PublisherId,
+    mailbox: Arc<Mailbox>,
+    expires_nanos: i64,
+    ingest: Ingest,
+    n_rejects_in_a_row: u32,
+    waits_for_space: bool,
+}
+
+/// A session's publisher, frame order and queue.
+#[derive(Debug)]
+pub(super) struct Intake {
+    lease: Option<Lease>,
+    newest_epoch: u64,
+    last_publisher: Option<PublisherId>,
+    last_capture_nanos: Option<i64>,
+    order: FrameOrder,
+    queue: WorkQueue,
+    limit: RateLimit,
+    meter: RateMeter,
+    counts: IntakeCounts,
+    closed: Option<Closed>,
+    pub(super) publisher_timeout: Duration,
+}
+
+impl Intake {
+    pub(super) fn new(limits: IntakeLimits, publisher_timeout: Duration, now_nanos: i64) -> Self {
+        Self {
+            lease: None,
+            newest_epoch: 0,
+            last_publisher: None,
+            last_capture_nanos: None,
+            order: FrameOrder::new(nanos(limits.resend_span)),
+            queue: WorkQueue::new(limits.waiting_frames, limits.waiting_bytes, limits.budget),
+            limit: RateLimit::new(limits.live_rate_hz, now_nanos),
+            meter: RateMeter::default(),
+            counts: IntakeCounts::default(),
+            closed: None,
+            publisher_timeout,
+        }
+    }
+
+    /// Whether `publisher` may start.
+    pub(super) fn check_claim(
+        &self,
+        publisher: &PublisherId,
+        takeover: bool,
+        now_nanos: i64,
+    ) -> Result<(), SessionError> {
+        self.check_open()?;
+        match &self.lease {
+            Some(lease)
+                if !takeover
+                    && lease.publisher != *publisher
+                    && now_nanos < lease.expires_nanos =>
+            {
+                let left_nanos = lease.expires_nanos - now_nanos;
+                Err(SessionError::Owned {
+                    owner: lease.publisher.to_string(),
+                    free_after: Duration::from_nanos(left_nanos.unsigned_abs()),
+                })
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// Starts a lease; an older one is fenced. The queue learns of the source, so that frames are read as it declared.
+    pub(super) fn grant(
+        &mut self,
+        grant: &Grant,
+        shape: StreamShape,
+        now_nanos: i64,
+    ) -> Result<Arc<Mailbox>, SessionError> {
+        self.check_claim(&grant.publisher, grant.takeover, now_nanos)?;
+        if grant.epoch <= self.newest_epoch {
+            return Err(SessionError::Fenced {
+                epoch: grant.epoch,
+                current: self.newest_epoch,
+            });
+        }
+        self.check_room_for_a_command()?;
+        self.fence(grant.epoch);
+        self.newest_epoch = grant.epoch;
+        self.note_publisher(&grant.publisher);
+        let mailbox = Arc::new(Mailbox::new(grant.epoch));
+        self.lease = Some(Lease {
+            publisher: grant.publisher.clone(),
+            mailbox: Arc::clone(&mailbox),
+            expires_nanos: now_nanos.saturating_add(nanos(self.publisher_timeout)),
+            ingest: grant.ingest,
+            n_rejects_in_a_row: 0,
+            waits_for_space: false,
+        });
+        self.queue.push_command(Command::Source(Source {
+            shape,
+            rate_hz: grant.rate_hz,
+            mailbox: Arc::clone(&mailbox),
+        }));
+        Ok(mailbox)
+    }
+
+    fn fence(&mut self, current: u64) {
+        if let Some(old) = self.lease.take() {
+            old.mailbox.end(PublishEnd::Fenced {
+                epoch: old.mailbox.epoch(),
+                current,
+            });
+        }
+    }
+
+    fn note_publisher(&mut self, publisher: &PublisherId) {
+        if self
+            .last_publisher
+            .as_ref()
+            .is_some_and(|it| it != publisher)
+        {
+            self.order.publisher_changed();
+            // Another publisher's clock says nothing about this one's.
+            self.last_capture_nanos = None;
+        }
+        self.last_publisher = Some(publisher.clone());
+    }
+
+    /// Judges a frame and takes it when it is new and there is room.
+    pub(super) fn offer(
+        &mut self,
+        mailbox: &Mailbox,
+        frame: IncomingFrame,
+        clock: &ServerClock,
+        now_nanos: i64,
+    ) -> Result<Offer, PublishEnd> {
+        self.renew(mailbox, now_nanos)?;
+        let number = frame.number;
+        match self.order.judge(number, frame.content_hash) {
+            Verdict::New => self.offer_new(frame, clock, now_nanos),
+            Verdict::Duplicate => {
+                self.counts.duplicate += 1;
+                Ok(Offer::Taken)
+            }
+            // A late frame is no mistake of the publisher: it does not count towards the limit in a row.
+            Verdict::Late => {
+                self.counts.late += 1;
+                self.counts.rejected += 1;
+                let detail = format!("frame {} was already passed", self.order.accepted_through());
+                Ok(Offer::Rejected(rejection(number, "LATE", detail)))
+            }
+            Verdict::Conflict => {
+                let detail = "this number was taken with other content".to_owned();
+                self.refuse(mailbox, rejection(number, "FRAME_CONFLICT", detail))
+            }
+            Verdict::Jump => {
+                let last = self.order.accepted_through();
+                let detail = format!("more than 2^32 beyond frame {last}");
+                self.refuse(mailbox, rejection(number, "FRAME_JUMP", detail))
+            }
+        }
+    }
+
+    fn offer_new(
+        &mut self,
+        frame: IncomingFrame,
+        clock: &ServerClock,
+        now_nanos: i64,
+    ) -> Result<Offer, PublishEnd> {
+        let cost_bytes = frame.cost_bytes();
+        let Some(lease) = &mut self.lease else {
+            return Err(self.lost());
+        };
+        match lease.ingest {
+            Ingest::Lossless if !self.queue.has_room(cost_bytes) => {
+                lease.waits_for_space = true;
+                return Ok(Offer::Wait(frame, Wait::Space));
+            }
+            Ingest::Lossless => {}
+            Ingest::Live => match self.limit.admit(now_nanos) {
+                Admission::Taken => self.make_room(cost_bytes),
+                Admission::WaitUntil(until) => {
+                    return Ok(Offer::Wait(frame, Wait::Until(clock.instant_at(until))));
+                }
+                Admission::Refused => return Ok(Offer::Rejected(self.refuse_excess(&frame))),
+            },
+        }
+        self.take(frame, now_nanos);
+        Ok(Offer::Taken)
+    }
+
+    fn make_room(&mut self, cost_bytes: usize) {
+        while !self.queue.has_room(cost_bytes) && self.queue.shed_oldest() {
+            self.counts.shed += 1;
+        }
+    }
+
+    /// Too fast is not unusable: it does not count towards the limit in a row.
+    fn refuse_excess(&mut self, frame: &IncomingFrame) -> Rejection {
+        self.counts.rejected += 1;
+        self.order.reject(frame.number);
+        let rate_hz = self.limit.rate_hz();
+        let detail = format!("the session takes {rate_hz} frames a second");
+        rejection(frame.number, "RATE_LIMIT", detail)
+    }
+
+    fn take(&mut self, mut frame: IncomingFrame, now_nanos: i64) {
+        let gaps_before = self
+            .order
+            .accept(frame.number, frame.content_hash, now_nanos);
+        let skipped = gaps_before
+            .iter()
+            .filter(|it| it.cause != GapCause::Rejected);
+        let n_missing = skipped.map(|it| it.n_frames());
+        self.counts.missing = n_missing.fold(self.counts.missing, u64::saturating_add);
+        self.counts.received += 1;
+        self.counts.partial_markers += frame.n_partial_markers as u64;
+        self.meter.count(now_nanos);
+        let previous = self.last_capture_nanos.replace(frame.capture_time_nanos);
+        frame.tag.time_non_monotonic = previous.is_some_and(|it| frame.capture_time_nanos <= it);
+        if let Some(lease) = &mut self.lease {
+            lease.n_rejects_in_a_row = 0;
+        }
+        self.queue.push_frame(WaitingFrame {
+            frame,
+            gaps_before,
+            received_nanos: now_nanos,
+        });
+    }
+
+    /// Counts a frame that cannot be used; ends the publication after too many in a row.
+    pub(super) fn refuse(
+        &mut self,
+        mailbox: &Mailbox,
+        rejection: Rejection,
+    ) -> Result<Offer, PublishEnd> {
+        self.check_lease(mailbox)?;
+        self.counts.rejected += 1;
+        self.order.reject(rejection.number);
+        let Some(lease) = &mut self.lease else {
+            return Err(self.lost());
+        };
+        lease.n_rejects_in_a_row += 1;
+        if lease.n_rejects_in_a_row >= MAX_CONSECUTIVE_REJECTS {
+            mailbox.reject(rejection);
+            mailbox.end(PublishEnd::TooManyRejects {
+                n_rejects: MAX_CONSECUTIVE_REJECTS,
+            });
+            self.lease = None;
+            return Err(ended(mailbox));
+        }
+        Ok(Offer::Rejected(rejection))
+    }
+
+    /// Lets the lease live on.
+    pub(super) fn renew(&mut self, mailbox: &Mailbox, now_nanos: i64) -> Result<(), PublishEnd> {
+        self.check_lease(mailbox)?;
+        if let Some(lease) = &mut self.lease {
+            lease.expires_nanos = now_nanos.saturating_add(nanos(self.publisher_timeout));
+        }
+        Ok(())
+    }
+
+    fn check_lease(&self, mailbox: &Mailbox) -> Result<(), PublishEnd> {
+        match &self.lease {
+            Some(lease) if lease.mailbox.epoch() == mailbox.epoch() => Ok(()),
+            _ => Err(mailbox.ended().unwrap_or_else(|| self.lost())),
+        }
+    }
+
+    /// A lease that is gone without a reason of its own was given to another, or the session closed.
+    fn lost(&self) -> PublishEnd {
+        let closed = self.closed.as_ref().map(Closed::publish_end);
+        closed.unwrap_or(PublishEnd::Fenced {
+            epoch: 0,
+            current: self.newest_epoch,
+        })
+    }
+
+    /// Gives the lease back at once. The mailbox is told when the publication's frames are done; `false`: no one will.
+    pub(super) fn release(&mut self, mailbox: &Arc<Mailbox>) -> bool {
+        if self.check_lease(mailbox).is_err() {
+            return false;
+        }
+        self.lease = None;
+        let told = self.check_room_for_a_command().is_ok();
+        if told {
+            let finish = Command::Finish(Arc::clone(mailbox));
+            self.queue.push_command(finish);
+        }
+        told
+    }
+
+    /// Ends the lease of a publication whose neutral face could not be aligned, and gives up its waiting frames.
+    pub(super) fn give_up(&mut self, mailbox: &Mailbox, end: PublishEnd) {
+        mailbox.end(end);
+        if self.check_lease(mailbox).is_ok() {
+            self.lease = None;
+        }
+        self.queue.give_up_frames(GapCause::NotAligned);
+    }
+
+    pub(super) fn command(&mut self, command: Command) -> Result<(), SessionError> {
+        self.check_open()?;
+        self.check_room_for_a_command()?;
+        self.queue.push_command(command);
+        Ok(())
+    }
+
+    fn check_room_for_a_command(&self) -> Result<(), SessionError> {
+        if self.queue.has_room_for_a_command() {
+            Ok(())
+        } else {
+            Err(SessionError::Busy {
+                limit: MAX_WAITING_COMMANDS,
+            })
+        }
+    }
+
+    fn check_open(&self) -> Result<(), SessionError> {
+        self.closed.as_ref().map_or(Ok(()), |it| Err(it.error()))
+    }
+
+    /// Takes nothing more; what waits is still done. The first reason stands, except that a failed session may end.
+    pub(super) fn close(&mut self, closed: Closed) {
+        let may_replace = matches!(
+            (&self.closed, &closed),
+            (None, _) | (Some(Closed::Failed { .. }), Closed::Ended)
+        );
+        if !may_replace {
+            return;
+        }
+        if let Some(lease) = self.lease.take() {
+            lease.mailbox.end(closed.publish_end());
+        }
+        if closed == Closed::Ended {
+            let trailing = self.order.finish();
+            self.queue.push_gaps(trailing);
+            self.queue.push_command(Command::End);
+        }
+        self.closed = Some(closed);
+    }
+
+    /// The next thing to do.
+    pub(super) fn pop(&mut self) -> Option<Work> {
+        let work = self.queue.pop()?;
+        if let Some(lease) = self.lease.as_mut().filter(|it| it.waits_for_space) {
+            lease.waits_for_space = false;
+            lease.mailbox.wake();
+        }
+        Some(work)
+    }
+
+    pub(super) fn closed(&self) -> Option<&Closed> {
+        self.closed.as_ref()
+    }
+
+    pub(super) fn counts(&self) -> IntakeCounts {
+        self.counts
+    }
+
+    pub(super) fn measured_rate_hz(&mut self, now_nanos: i64) -> f64 {
+        self.meter.rate_hz(now_nanos)
+    }
+
+    pub(super) fn accepted_through(&self) -> u64 {
+        self.order.accepted_through()
+    }
+
+    pub(super) fn next_expected(&self) -> u64 {
+        self.order.next_expected()
+    }
+
+    pub(super) fn owner(&self) -> Option<&PublisherId> {
+        self.lease.as_ref().map(|it| &it.publisher)
+    }
+}
+
+fn ended(mailbox: &Mailbox) -> PublishEnd {
+    mailbox.ended().unwrap_or(PublishEnd::Ended)
+}
+
+fn rejection(number: u64, reason: &'static str, detail: String) -> Rejection {
+    Rejection {
+        number,
+        reason,
+        detail,
+    }
+}

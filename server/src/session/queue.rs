@@ -1,0 +1,273 @@
+//! Work that waits for a session's solver, in order.
+//!
+//! Bounded in frames, bytes and commands (CONTRACTS O-1). When live ingest finds it full, the oldest waiting frame is
+//! shed and leaves its gap in its place (O-4, O-5).
+
+use std::collections::VecDeque;
+
+use super::{command::Command, frame::IncomingFrame};
+use crate::hub::{BufferBudget, Gap, GapCause};
+
+/// Most commands that wait.
+pub(super) const MAX_WAITING_COMMANDS: usize = 64;
+
+/// One thing to do.
+#[derive(Debug)]
+pub(super) enum Work {
+    /// Solve a frame.
+    Frame(Box<WaitingFrame>),
+    /// Tell subscribers of numbers without samples.
+    Gaps(Vec<Gap>),
+    /// Something that happens between two frames.
+    Command(Command),
+}
+
+/// An accepted frame.
+#[derive(Debug)]
+pub(super) struct WaitingFrame {
+    pub(super) frame: IncomingFrame,
+    /// Numbers without frames just before it.
+    pub(super) gaps_before: Vec<Gap>,
+    pub(super) received_nanos: i64,
+}
+
+/// The queue of one session.
+#[derive(Debug)]
+pub(super) struct WorkQueue {
+    work: VecDeque<Work>,
+    n_frames: usize,
+    n_commands: usize,
+    bytes: usize,
+    max_frames: usize,
+    max_bytes: usize,
+    budget: BufferBudget,
+}
+
+impl WorkQueue {
+    pub(super) fn new(max_frames: usize, max_bytes: usize, budget: BufferBudget) -> Self {
+        Self {
+            work: VecDeque::new(),
+            n_frames: 0,
+            n_commands: 0,
+            bytes: 0,
+            max_frames,
+            max_bytes,
+            budget,
+        }
+    }
+
+    /// Whether a frame of `cost_bytes` fits. The first one always does, whatever other sessions hold.
+    pub(super) fn has_room(&self, cost_bytes: usize) -> bool {
+        self.n_frames == 0
+            || (self.n_frames < self.max_frames
+                && self.bytes + cost_bytes <= self.max_bytes
+                && !self.budget.is_exceeded())
+    }
+
+    pub(super) fn has_room_for_a_command(&self) -> bool {
+        self.n_commands < MAX_WAITING_COMMANDS
+    }
+
+    pub(super) fn push_frame(&mut self, waiting: WaitingFrame) {
+        let cost_bytes = waiting.frame.cost_bytes();
+        self.bytes += cost_bytes;
+        self.budget.charge(cost_bytes);
+        self.n_frames += 1;
+        self.work.push_back(Work::Frame(Box::new(waiting)));
+    }
+
+    pub(super) fn push_gaps(&mut self, gaps: Vec<Gap>) {
+        if !gaps.is_empty() {
+            self.work.push_back(Work::Gaps(gaps));
+        }
+    }
+
+    pub(super) fn push_command(&mut self, command: Command) {
+        self.n_commands += 1;
+        self.work.push_back(Work::Command(command));
+    }
+
+    pub(super) fn pop(&mut self) -> Option<Work> {
+        let work = self.work.pop_front()?;
+        match &work {
+            Work::Frame(waiting) => self.note_taken(waiting.frame.cost_bytes()),
+            Work::Command(_) => self.n_commands -= 1,
+            Work::Gaps(_) => {}
+        }
+        Some(work)
+    }
+
+    fn note_taken(&mut self, cost_bytes: usize) {
+        self.n_frames -= 1;
+        self.bytes -= cost_bytes;
+        self.budget.release(cost_bytes);
+    }
+
+    /// Turns the oldest waiting frame into a gap; `false` when none waits.
+    pub(super) fn shed_oldest(&mut self) -> bool {
+        let is_frame = |it: &Work| matches!(it, Work::Frame(_));
+        let Some(place) = self.work.iter().position(is_frame) else {
+            return false;
+        };
+        self.replace_by_gap(place, GapCause::Shed);
+        true
+    }
+
+    /// Turns every waiting frame up to the next command into a gap.
+    pub(super) fn give_up_frames(&mut self, cause: GapCause) {
+        let mut place = 0;
+        loop {
+            match self.work.get(place) {
+                None | Some(Work::Command(_)) => return,
+                Some(Work::Gaps(_)) => place += 1,
+                // The gap joins the one before it, so that this place holds the next thing to look at.
+                Some(Work::Frame(_)) => place = self.replace_by_gap(place, cause) + 1,
+            }
+        }
+    }
+
+    /// Returns where the gap is now: it joins the gaps just before it, so that the queue does not grow by shedding.
+    fn replace_by_gap(&mut self, place: usize, cause: GapCause) -> usize {
+        let Some(Work::Frame(waiting)) = self.work.get(place) else {
+            return place;
+        };
+        let cost_bytes = waiting.frame.cost_bytes();
+        let number = waiting.frame.number;
+        let gaps_before = waiting.gaps_before.clone();
+        self.note_taken(cost_bytes);
+        let before = place.checked_sub(1);
+        let joined = match before.and_then(|it| self.work.get_mut(it)) {
+            Some(Work::Gaps(gaps)) => Some(gaps),
+            _ => None,
+        };
+        let lost = gaps_before
+            .into_iter()
+            .chain([Gap::of_frame(number, cause)]);
+        if let (Some(gaps), Some(before)) = (joined, before) {
+            lost.for_each(|gap| gap.append_to(gaps));
+            self.work.remove(place);
+            before
+        } else {
+            let mut gaps = Vec::new();
+            lost.for_each(|gap| gap.append_to(&mut gaps));
+            self.work[place] = Work::Gaps(gaps);
+            place
+        }
+    }
+}
+
+impl Drop for WorkQueue {
+    fn drop(&mut self) {
+        self.budget.release(self.bytes);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+    use crate::hub::SampleTag;
+
+    fn queue(max_frames: usize) -> WorkQueue {
+        WorkQueue::new(max_frames, 1 << 20, BufferBudget::new(1 << 30))
+    }
+
+    fn waiting(number: u64) -> WaitingFrame {
+        WaitingFrame {
+            frame: IncomingFrame {
+                number,
+                capture_time_nanos: 0,
+                positions: Vec::new(),
+                tag: SampleTag::default(),
+                content_hash: 0,
+                n_partial_markers: 0,
+            },
+            gaps_before: Vec::new(),
+            received_nanos: 0,
+        }
+    }
+
+    fn drained(queue: &mut WorkQueue) -> Vec<(u64, u64, bool)> {
+        let mut spans = Vec::new();
+        while let Some(work) = queue.pop() {
+            match work {
+                Work::Frame(it) => {
+                    for gap in it.gaps_before {
+                        spans.push((gap.first, gap.last, false));
+                    }
+                    spans.push((it.frame.number, it.frame.number, true));
+                }
+                Work::Gaps(gaps) => {
+                    spans.extend(gaps.iter().map(|it| (it.first, it.last, false)));
+                }
+                Work::Command(_) => {}
+            }
+        }
+        spans
+    }
+
+    #[test]
+    fn the_oldest_is_shed_and_leaves_its_gap_in_its_place() {
+        let mut queue = queue(3);
+        for number in 1..=3 {
+            queue.push_frame(waiting(number));
+        }
+        assert!(!queue.has_room(1));
+        assert!(queue.shed_oldest());
+        assert!(queue.shed_oldest());
+        queue.push_frame(waiting(4));
+        assert_eq!(
+            drained(&mut queue),
+            [(1, 2, false), (3, 3, true), (4, 4, true)]
+        );
+    }
+
+    #[test]
+    fn bytes_count_too_and_are_given_back() {
+        let budget = BufferBudget::new(1 << 30);
+        let mut queue = WorkQueue::new(10, 1, budget.clone());
+        assert!(queue.has_room(1_000));
+        queue.push_frame(waiting(1));
+        assert!(!queue.has_room(1));
+        assert!(budget.used_bytes() > 0);
+        drop(queue);
+        assert_eq!(budget.used_bytes(), 0);
+    }
+
+    proptest! {
+        /// However frames come, go and are shed, the numbers come out in order and each once.
+        #[test]
+        fn nothing_is_lost_or_reordered(steps in prop::collection::vec(0u8..8, 1..300)) {
+            let mut queue = queue(16);
+            let mut out = Vec::new();
+            let mut next = 1;
+            for step in steps {
+                match step {
+                    0 => { out.extend(queue.pop().map(|it| { let mut one = WorkQueue::new(16, 1 << 20, BufferBudget::new(1)); match it {
+                        Work::Frame(it) => one.push_frame(*it), Work::Gaps(it) => one.push_gaps(it), Work::Command(_) => {} } drained(&mut one) }).into_iter().flatten()); }
+                    1 => { queue.shed_oldest(); }
+                    2 => queue.give_up_frames(GapCause::NotAligned),
+                    _ => {
+                        let mut frame = waiting(next);
+                        if step == 3 {
+                            frame.gaps_before = vec![Gap { first: next, last: next + 2, cause: GapCause::CaptureSkip }];
+                            frame.frame.number += 3;
+                        }
+                        next = frame.frame.number + 1;
+                        queue.push_frame(frame);
+                    }
+                }
+            }
+            out.extend(drained(&mut queue));
+            let mut expected = 1;
+            for (first, last, _) in out {
+                prop_assert_eq!(first, expected);
+                expected = last + 1;
+            }
+            prop_assert_eq!(expected, next);
+            prop_assert_eq!(queue.n_frames, 0);
+            prop_assert_eq!(queue.bytes, 0);
+        }
+    }
+}
