@@ -3,13 +3,23 @@
 //! A session owns its time, its task and its queue; what happens to it cannot reach another session.
 //! Other layers see [`SessionRegistry`], [`SessionHandle`] and [`Publication`], and read its [`SessionEvent`]s.
 
+mod command;
 mod error;
+mod figures;
 mod frame;
 mod handle;
+mod intake;
+mod mailbox;
+mod order;
+mod pipeline;
 mod publication;
+mod queue;
+mod rate;
 mod registry;
 mod settings;
+mod shared;
 mod status;
+mod worker;
 
 pub use error::SessionError;
 pub use frame::{IncomingFrame, Rejection};

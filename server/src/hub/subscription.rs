@@ -285,8 +285,12 @@ impl Subscription {
                     let passed_over = sent_through.map_or(0, |sent| sample.sequence - sent - 1);
                     *sent_through = Some(sample.sequence);
                     self.skipped_samples += passed_over;
-                    credits.as_mut().map(Credits::spend);
-                    pace.as_mut().map(|it| it.sent(now));
+                    if let Some(credits) = credits {
+                        credits.spend();
+                    }
+                    if let Some(pace) = pace {
+                        pace.sent(now);
+                    }
                     self.tally
                         .skipped_samples
                         .store(self.skipped_samples, Ordering::Relaxed);

@@ -135,10 +135,6 @@ impl Window {
         self.next_sequence - self.n_samples as u64
     }
 
-    pub(super) fn end(&self) -> u64 {
-        self.base + self.entries.len() as u64
-    }
-
     pub(super) fn push_sample(&mut self, sample: Arc<PublishedSample>, now_nanos: i64) {
         let cost_bytes = sample.cost_bytes();
         let sequence = self.next_sequence;

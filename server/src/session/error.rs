@@ -38,12 +38,6 @@ pub enum SessionError {
         /// The epoch in force.
         current: u64,
     },
-    /// A marker name stands twice in the publisher's list.
-    #[error("marker {index} repeats the name of an earlier one")]
-    DuplicateMarker {
-        /// Position of the second.
-        index: usize,
-    },
     /// None of the publisher's markers is one of the actor's.
     #[error("none of the {n_streamed} streamed markers is one of the actor's {n_known}")]
     UnknownMarkers {

@@ -3,12 +3,14 @@
 use std::sync::Arc;
 
 use frontalis_analysis::{
-    curve::CurveSample, face::actor::Actor, marker_analysis::alignment::Alignment,
+    curve::CurveSample,
+    face::{actor::Actor, muscle::Muscle},
+    marker_analysis::alignment::Alignment,
 };
 
 use super::{
     settings::{SessionSettings, SessionSpec},
-    status::{AlignmentReport, ControlRange, Latency, StageLatency},
+    status::{AlignmentReport, ControlRange, Latency, SessionStatus, StageLatency},
 };
 
 /// Times kept a stage.
@@ -28,13 +30,13 @@ pub(super) struct Figures {
     stages: [Times; 4],
 }
 
-/// When a frame passed each station, server clock.
+/// When a frame passed each station, server clock, nanoseconds.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Passage {
-    pub(super) received_nanos: i64,
-    pub(super) started_nanos: i64,
-    pub(super) solved_nanos: i64,
-    pub(super) published_nanos: i64,
+    pub(super) received: i64,
+    pub(super) started: i64,
+    pub(super) solved: i64,
+    pub(super) published: i64,
 }
 
 const STAGES: [&str; 4] = ["queued", "solved", "published", "total"];
@@ -55,6 +57,33 @@ impl Figures {
         }
     }
 
+    /// A publisher began.
+    pub(super) fn granted(&mut self, rate_hz: f64, unknown_markers: Vec<String>) {
+        self.nominal_rate_hz = rate_hz;
+        self.unknown_markers = unknown_markers;
+        self.alignment_problem = None;
+    }
+
+    pub(super) fn changed(
+        &mut self,
+        settings: SessionSettings,
+        actor: Arc<Actor>,
+        actor_revision: u32,
+    ) {
+        self.settings = settings;
+        self.actor = actor;
+        self.actor_revision = actor_revision;
+    }
+
+    pub(super) fn fill(&self, status: &mut SessionStatus) {
+        status.alignment = self.alignment;
+        status.alignment_problem = self.alignment_problem;
+        status.latencies = self.latencies();
+        status.actor_revision = self.actor_revision;
+        status.ranges = self.ranges();
+        status.unknown_markers.clone_from(&self.unknown_markers);
+    }
+
     pub(super) fn aligned(&mut self, alignment: &Alignment) {
         self.alignment = Some(report(alignment));
         self.alignment_problem = None;
@@ -71,19 +100,19 @@ impl Figures {
 
     pub(super) fn passed(&mut self, passage: Passage) {
         let Passage {
-            received_nanos,
-            started_nanos,
-            solved_nanos,
-            published_nanos,
+            received,
+            started,
+            solved,
+            published,
         } = passage;
         let [queued, solved, published, total] = &mut self.stages;
-        queued.add(started_nanos - received_nanos);
-        solved.add(solved_nanos - started_nanos);
-        published.add(published_nanos - solved_nanos);
-        total.add(published_nanos - received_nanos);
+        queued.add(started - received);
+        solved.add(solved - started);
+        published.add(published - solved);
+        total.add(published - received);
     }
 
-    pub(super) fn latencies(&self) -> Vec<StageLatency> {
+    fn latencies(&self) -> Vec<StageLatency> {
         let latency = |(stage, times): (&'static str, &Times)| StageLatency {
             stage,
             latency: times.latency(),
@@ -91,15 +120,12 @@ impl Figures {
         STAGES.into_iter().zip(&self.stages).map(latency).collect()
     }
 
-    pub(super) fn ranges(&self) -> Vec<ControlRange> {
+    fn ranges(&self) -> Vec<ControlRange> {
         let muscles = self.actor.muscle_set().muscles().iter();
-        let range = |(muscle, (min, max)): (&_, &(f64, f64))| {
-            let muscle: &frontalis_analysis::face::muscle::Muscle = muscle;
-            ControlRange {
-                control: muscle.name.clone(),
-                min: *min,
-                max: *max,
-            }
+        let range = |(muscle, (min, max)): (&Muscle, &(f64, f64))| ControlRange {
+            control: muscle.name.clone(),
+            min: *min,
+            max: *max,
         };
         muscles.zip(&self.ranges).map(range).collect()
     }

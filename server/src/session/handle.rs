@@ -1,13 +1,17 @@
 //! What the rest of the server holds of a session.
 
-use std::{sync::Arc, time::SystemTime};
+use std::{collections::BTreeSet, sync::Arc, time::SystemTime};
 
 use frontalis_analysis::face::actor::Actor;
+use tokio::sync::oneshot;
 
 use super::{
+    command::Command,
     error::SessionError,
-    publication::{Grant, Publication},
-    settings::{SessionSettings, SessionUpdate},
+    intake::Closed,
+    publication::{Grant, Granted, Publication},
+    settings::{SessionSettings, SessionUpdate, StreamShape},
+    shared::Shared,
     status::SessionStatus,
 };
 use crate::{
@@ -16,87 +20,211 @@ use crate::{
 };
 
 /// A session, to be asked and told. Cheap to clone.
-#[derive(Clone)]
+#[derive(Clone, Debug)]
 pub struct SessionHandle {
-    _shared: Arc<()>,
+    pub(super) shared: Arc<Shared>,
 }
 
-#[expect(
-    clippy::unused_async,
-    clippy::missing_errors_doc,
-    reason = "signatures first"
-)]
 impl SessionHandle {
     /// Its id.
     pub fn id(&self) -> &SessionId {
-        unimplemented!()
+        &self.shared.id
     }
+
     /// A person's name for it.
     pub fn display_name(&self) -> &str {
-        unimplemented!()
+        &self.shared.display_name
     }
+
     /// The actor's id.
     pub fn actor_id(&self) -> &ActorId {
-        unimplemented!()
+        &self.shared.actor_id
     }
+
     /// The actor in use.
     pub fn actor(&self) -> Arc<Actor> {
-        unimplemented!()
+        Arc::clone(&self.shared.figures().actor)
     }
+
     /// Revision of the actor in use.
     pub fn actor_revision(&self) -> u32 {
-        unimplemented!()
+        self.shared.figures().actor_revision
     }
+
     /// The settings in use.
     pub fn settings(&self) -> SessionSettings {
-        unimplemented!()
+        self.shared.figures().settings.clone()
     }
+
     /// When it was created.
     pub fn create_time(&self) -> SystemTime {
-        unimplemented!()
+        self.shared.create_time
     }
+
     /// The run.
     pub fn run(&self) -> u64 {
-        unimplemented!()
+        self.shared.run
     }
-    /// The declared rate of the last publisher; 0 before the first.
+
+    /// The rate that the last publisher declared; 0 before the first.
     pub fn nominal_rate_hz(&self) -> f64 {
-        unimplemented!()
+        self.shared.figures().nominal_rate_hz
     }
-    /// Whether it ended.
+
+    /// Whether it ended, or is about to.
     pub fn is_ended(&self) -> bool {
-        unimplemented!()
+        matches!(self.shared.intake().closed(), Some(Closed::Ended))
     }
-    /// Its figures.
-    pub fn status(&self) -> SessionStatus {
-        unimplemented!()
-    }
+
     /// Where its samples leave.
     pub fn hub(&self) -> &Arc<CurveHub> {
-        unimplemented!()
+        &self.shared.hub
     }
+
+    /// Its figures at this moment.
+    pub fn status(&self) -> SessionStatus {
+        let shared = &self.shared;
+        let mut status = SessionStatus {
+            state: shared.hub.state(),
+            run: shared.run,
+            last_sequence: shared.hub.newest_sequence(),
+            subscribers: shared.hub.subscribers(),
+            ..SessionStatus::default()
+        };
+        shared.figures().fill(&mut status);
+        let now_nanos = shared.clock.now_nanos();
+        shared.intake().fill(&mut status, now_nanos);
+        status
+    }
+
     /// Changes settings or moves to another revision of the actor, between two frames; returns when it is done.
-    pub async fn update(&self, _update: SessionUpdate) -> Result<(), SessionError> {
-        unimplemented!()
+    ///
+    /// # Errors
+    ///
+    /// [`SessionError`] when the session takes no requests any more, or too many wait.
+    pub async fn update(&self, update: SessionUpdate) -> Result<(), SessionError> {
+        let (done, is_done) = oneshot::channel();
+        let (settings, actor, actor_revision) = {
+            let figures = self.shared.figures();
+            let settings = update.settings.unwrap_or_else(|| figures.settings.clone());
+            let present = (Arc::clone(&figures.actor), figures.actor_revision);
+            let (actor, actor_revision) = update.actor.unwrap_or(present);
+            (settings, actor, actor_revision)
+        };
+        self.shared.intake().publisher_timeout = settings.publisher_timeout;
+        self.ask(Command::Update {
+            settings,
+            actor,
+            actor_revision,
+            done,
+        })?;
+        self.answered(is_done).await
     }
-    /// Takes the next usable frames as the neutral face again.
+
+    /// Takes the next usable frames as the neutral face again; returns when the old alignment is given up.
+    ///
+    /// # Errors
+    ///
+    /// [`SessionError`] when the session takes no requests any more, or too many wait.
     pub async fn recenter(&self) -> Result<(), SessionError> {
-        unimplemented!()
+        let (done, is_done) = oneshot::channel();
+        self.ask(Command::Recenter { done })?;
+        self.answered(is_done).await
     }
-    /// Finishes the queue and ends the session; returns when it is done. Idempotent.
-    pub async fn end(&self) -> Result<(), SessionError> {
-        unimplemented!()
+
+    fn ask(&self, command: Command) -> Result<(), SessionError> {
+        self.shared.intake().command(command)?;
+        self.shared.work.notify_one();
+        Ok(())
     }
-    /// Whether a publisher may start now; asked before an epoch is made durable.
-    pub fn check_claim(
-        &self,
-        _publisher: &PublisherId,
-        _takeover: bool,
-    ) -> Result<(), SessionError> {
-        unimplemented!()
+
+    async fn answered(&self, is_done: oneshot::Receiver<()>) -> Result<(), SessionError> {
+        match is_done.await {
+            Ok(()) => Ok(()),
+            Err(_gone) => {
+                let closed = self.shared.intake().closed().map(Closed::error);
+                Err(closed.unwrap_or(SessionError::Ended))
+            }
+        }
     }
-    /// Gives the session to a publisher; an older publication ends.
-    pub fn grant(&self, _grant: Grant) -> Result<Publication, SessionError> {
-        unimplemented!()
+
+    /// Takes no more frames, finishes those that wait, and ends the session; returns when it is done. Idempotent.
+    pub async fn end(&self) {
+        self.shared.intake().close(Closed::Ended);
+        self.shared.work.notify_one();
+        self.over().await;
+    }
+
+    /// Waits until the session's task is done.
+    pub(super) async fn over(&self) {
+        let mut is_over = self.shared.is_over.subscribe();
+        // The sender is in `shared`, which lives as long as this handle.
+        let _over = is_over.wait_for(|it| *it).await;
+    }
+
+    /// Takes no more frames and finishes those that wait; subscribers are told to come back later.
+    pub(super) fn drain(&self) {
+        self.shared.intake().close(Closed::Draining);
+        self.shared.work.notify_one();
+    }
+
+    /// Whether a publisher may start now; to be asked before an epoch is made durable.
+    ///
+    /// # Errors
+    ///
+    /// [`SessionError::Owned`] when another publisher holds the lease, or why the session takes no publisher.
+    pub fn check_claim(&self, publisher: &PublisherId, takeover: bool) -> Result<(), SessionError> {
+        let now_nanos = self.shared.clock.now_nanos();
+        let intake = self.shared.intake();
+        intake.check_claim(publisher, takeover, now_nanos)
+    }
+
+    /// Gives the session to a publisher; an older publication is fenced.
+    ///
+    /// # Errors
+    ///
+    /// [`SessionError`] as for [`Self::check_claim`], and when the epoch is not the newest or no marker is known.
+    pub fn grant(&self, mut grant: Grant) -> Result<Publication, SessionError> {
+        let shared = &self.shared;
+        let actor = self.actor();
+        let known: Vec<&str> = actor.markers().iter().map(|it| it.name.as_str()).collect();
+        if grant.marker_names.is_empty() {
+            grant.marker_names = known.iter().map(|it| (*it).to_owned()).collect();
+        }
+        let known: BTreeSet<&str> = known.into_iter().collect();
+        let is_unknown = |it: &&String| !known.contains(it.as_str());
+        let unknown: Vec<String> = grant
+            .marker_names
+            .iter()
+            .filter(is_unknown)
+            .cloned()
+            .collect();
+        if unknown.len() == grant.marker_names.len() {
+            return Err(SessionError::UnknownMarkers {
+                n_streamed: unknown.len(),
+                n_known: known.len(),
+            });
+        }
+        let shape = StreamShape {
+            unit: grant.unit,
+            marker_names: std::mem::take(&mut grant.marker_names),
+        };
+        let now_nanos = shared.clock.now_nanos();
+        let mut intake = shared.intake();
+        let mailbox = intake.grant(&grant, shape.clone(), now_nanos)?;
+        let next_expected = intake.next_expected();
+        drop(intake);
+        shared.figures().granted(grant.rate_hz, unknown);
+        shared.work.notify_one();
+        Ok(Publication {
+            session: Arc::clone(shared),
+            mailbox,
+            granted: Granted {
+                epoch: grant.epoch,
+                next_expected,
+                run: shared.run,
+                shape,
+            },
+        })
     }
 }

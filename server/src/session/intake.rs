@@ -16,6 +16,7 @@ use super::{
     queue::{MAX_WAITING_COMMANDS, WaitingFrame, Work, WorkQueue},
     rate::{Admission, RateLimit, RateMeter},
     settings::StreamShape,
+    status::SessionStatus,
 };
 use crate::{
     clock::{ServerClock, nanos},
@@ -431,8 +432,21 @@ impl Intake {
         self.counts
     }
 
-    pub(super) fn measured_rate_hz(&mut self, now_nanos: i64) -> f64 {
-        self.meter.rate_hz(now_nanos)
+    pub(super) fn fill(&mut self, status: &mut SessionStatus, now_nanos: i64) {
+        let counts = self.counts;
+        status.last_frame = self.accepted_through();
+        status.frame_rate_hz = self.meter.rate_hz(now_nanos);
+        status.frames_received = counts.received;
+        status.frames_rejected = counts.rejected;
+        status.frames_late = counts.late;
+        status.frames_duplicate = counts.duplicate;
+        status.frames_shed = counts.shed;
+        status.frames_missing = counts.missing;
+        status.markers_partial = counts.partial_markers;
+        status.publisher = self.lease.as_ref().map(|it| it.publisher.to_string());
+        if let Some(Closed::Failed { reason }) = &self.closed {
+            status.failure = Some(reason.clone());
+        }
     }
 
     pub(super) fn accepted_through(&self) -> u64 {
@@ -441,10 +455,6 @@ impl Intake {
 
     pub(super) fn next_expected(&self) -> u64 {
         self.order.next_expected()
-    }
-
-    pub(super) fn owner(&self) -> Option<&PublisherId> {
-        self.lease.as_ref().map(|it| &it.publisher)
     }
 }
 

@@ -163,7 +163,9 @@ impl FrameOrder {
             return;
         }
         let after = self.rejected.partition_point(|(first, _)| *first <= number);
-        let previous = after.checked_sub(1).and_then(|it| self.rejected.get_mut(it));
+        let previous = after
+            .checked_sub(1)
+            .and_then(|it| self.rejected.get_mut(it));
         if let Some((_, last)) = previous.filter(|(_, last)| last.saturating_add(1) >= number) {
             *last = (*last).max(number);
         } else if self.rejected.len() < MAX_REJECTED_SPANS {
@@ -243,7 +245,10 @@ mod tests {
         let mut order = FrameOrder::new(10 * SECOND);
         order.accept(1, 0, 0);
         order.publisher_changed();
-        assert_eq!(order.accept(5, 0, 0), [gap(2, 4, GapCause::PublisherChange)]);
+        assert_eq!(
+            order.accept(5, 0, 0),
+            [gap(2, 4, GapCause::PublisherChange)]
+        );
         assert_eq!(order.accept(7, 0, 0), [gap(6, 6, GapCause::CaptureSkip)]);
     }
 

@@ -1,12 +1,16 @@
 //! A publisher's hold on a session: frames in, watermarks out.
 
-use frontalis_analysis::marker_analysis::alignment::AlignmentError;
+use std::sync::Arc;
+
+use frontalis_analysis::{marker_analysis::alignment::AlignmentError, space::LengthUnit};
 
 use super::{
     frame::{IncomingFrame, Rejection},
+    mailbox::Mailbox,
     settings::StreamShape,
+    shared::Shared,
 };
-use crate::{clock::ServerClock, name::PublisherId};
+use crate::name::PublisherId;
 
 /// What happens when frames come faster than they are solved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

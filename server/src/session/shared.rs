@@ -11,7 +11,7 @@ use tokio::sync::{Notify, mpsc, watch};
 
 use super::{
     figures::Figures,
-    intake::Intake,
+    intake::{Closed, Intake, IntakeLimits},
     settings::{SessionEvent, SessionLimits, SessionSpec},
 };
 use crate::{
@@ -19,8 +19,6 @@ use crate::{
     hub::{BufferBudget, CurveHub, HubLimits, SubscriberQuota},
     name::{ActorId, SessionId},
 };
-
-use super::intake::IntakeLimits;
 
 /// One session.
 #[derive(Debug)]
@@ -99,17 +97,34 @@ impl Shared {
         self.figures.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
+    pub(super) fn is_draining(&self) -> bool {
+        matches!(self.intake().closed(), Some(Closed::Draining))
+    }
+
+    /// Waits until the rest of the server has room for the event.
+    pub(super) async fn tell(&self, event: SessionEvent) {
+        if self.events.send(event).await.is_err() {
+            // The reader is gone only when the server shuts down.
+            tracing::warn!(session = %self.id, "an event of the session was not kept");
+        }
+    }
+
     /// Silence after which a live session is stale (CONTRACTS D-23).
     pub(super) fn stale_after_nanos(&self, rate_hz: f64) -> i64 {
         let settings = &self.figures().settings;
-        settings.stale_after.map_or_else(|| default_stale_after_nanos(rate_hz), nanos)
+        settings
+            .stale_after
+            .map_or_else(|| default_stale_after_nanos(rate_hz), nanos)
     }
 }
 
 fn default_stale_after_nanos(rate_hz: f64) -> i64 {
     let periods_nanos = 3.0e9 / rate_hz;
     // The rate is positive and finite, so this is a number; a rate below one frame a year saturates.
-    #[expect(clippy::cast_possible_truncation, reason = "saturates, which is what is wanted")]
+    #[expect(
+        clippy::cast_possible_truncation,
+        reason = "saturates, which is what is wanted"
+    )]
     let periods_nanos = periods_nanos as i64;
     periods_nanos.max(100_000_000)
 }

@@ -1,7 +1,7 @@
 //! Where an error becomes a gRPC status.
 //!
 //! Every status carries `google.rpc.ErrorInfo { reason, domain: "frontalis" }` in `grpc-status-details-bin`, and
-//! `google.rpc.RetryInfo` where waiting helps (BAD_INPUT, "Notation").
+//! `google.rpc.RetryInfo` where waiting helps (the bad-input table, "Notation").
 
 use std::time::Duration;
 
@@ -40,7 +40,7 @@ impl Refusal {
 
     /// Adds an entry to `ErrorInfo.metadata`: figures a program can read.
     #[must_use]
-    pub fn with(mut self, key: &str, value: impl ToString) -> Self {
+    pub fn with(mut self, key: &str, value: &impl ToString) -> Self {
         self.metadata.push((key.to_owned(), value.to_string()));
         self
     }
@@ -134,7 +134,7 @@ mod tests {
     #[test]
     fn a_refusal_carries_its_reason() {
         let status = Refusal::new(Code::OutOfRange, "NEW_RUN", "the run is 4")
-            .with("run", 4)
+            .with("run", &4)
             .retry_after(Duration::from_millis(1500))
             .into_status();
         assert_eq!(status.code(), Code::OutOfRange);
