@@ -99,17 +99,11 @@ impl Figures {
     }
 
     pub(super) fn passed(&mut self, passage: Passage) {
-        let Passage {
-            received,
-            started,
-            solved,
-            published,
-        } = passage;
         let [queued, solved, published, total] = &mut self.stages;
-        queued.add(started - received);
-        solved.add(solved - started);
-        published.add(published - solved);
-        total.add(published - received);
+        queued.add(passage.started - passage.received);
+        solved.add(passage.solved - passage.started);
+        published.add(passage.published - passage.solved);
+        total.add(passage.published - passage.received);
     }
 
     fn latencies(&self) -> Vec<StageLatency> {
