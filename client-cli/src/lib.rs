@@ -7,6 +7,7 @@
 //! | [`curve_client`] | follows a session's curves, newest first or every frame without a hole |
 //! | [`error`] | what a server refused, its reason, and what to do about it |
 //! | [`backoff`] | how long to wait before trying again |
+//! | [`simulated_stage`] | an actor, cameras and a performance, for a stage without a studio |
 //! | [`csv`] | curves as a table, the same bytes from a server and from a file |
 
 pub mod backoff;
@@ -17,6 +18,7 @@ pub mod curve_client;
 pub mod error;
 #[cfg(test)]
 mod fake_server;
+pub mod simulated_stage;
 
 /// The wire types that the clients speak.
 pub use frontalis_proto::v1 as proto;
