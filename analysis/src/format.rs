@@ -6,6 +6,7 @@
 pub mod actor_package;
 pub mod glb;
 pub mod obj;
+pub mod trc;
 
 #[cfg(test)]
 mod shared_data;
