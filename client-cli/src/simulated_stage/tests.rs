@@ -188,6 +188,8 @@ fn the_analysis_finds_the_performance_again() {
     };
     let error = |mode| activation_error(stage(minute), minute.rate_hz, mode);
     let (joint, split) = (error(RegionMode::Joint), error(RegionMode::Split));
-    println!("activations, five cameras, 0.3 px, moving head: RMS error {joint:.4} joint, {split:.4} split");
+    println!(
+        "activations, five cameras, 0.3 px, moving head: RMS error {joint:.4} joint, {split:.4} split"
+    );
     assert!(joint <= 0.03, "{joint}");
 }
