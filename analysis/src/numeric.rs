@@ -1,5 +1,5 @@
 //! Numerical methods that know no faces.
 
 pub mod box_qp;
-pub mod cholesky;
+pub mod factor;
 pub mod similarity_fit;

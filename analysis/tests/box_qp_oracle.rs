@@ -105,7 +105,15 @@ fn agrees_with_an_interior_point_solver_on_a_thousand_random_problems() {
     for _ in 0..PROBLEMS {
         let problem = random_problem(&mut rng);
         let mut qp = BoxQp::new(problem.m);
-        qp.set_hessian(|it| it.copy_from_slice(&problem.hessian));
+        let stride = qp.stride();
+        qp.set_hessian(|it| {
+            for (to, from) in it
+                .chunks_exact_mut(stride)
+                .zip(problem.hessian.chunks_exact(problem.m))
+            {
+                to[..problem.m].copy_from_slice(from);
+            }
+        });
         for i in 0..problem.m {
             qp.set_bounds(i, 0.0, problem.upper);
         }

@@ -6,7 +6,7 @@
 
 use std::ops::Range;
 
-use nalgebra::Vector3;
+use nalgebra::{Matrix3, Vector3};
 
 use super::{
     alignment::Alignment,
@@ -19,7 +19,7 @@ use crate::{
     curve::HeldReason,
     face::{actor::Actor, region::FaceRegion},
     numeric::box_qp::BoxQp,
-    space::{HeadPose, PerformancePoint, Similarity},
+    space::{HeadPose, PerformancePoint},
 };
 
 /// An unobserved muscle decays by 1/e in this time.
@@ -49,11 +49,15 @@ pub struct RegionOutcome {
 #[derive(Clone, Debug)]
 pub struct ContractionSolver {
     model: MarkerModel,
-    model_from_performance: Similarity,
+    /// s R and t of `model_from_performance`.
+    linear_part: Matrix3<f64>,
+    translation_cm: Vector3<f64>,
     region_mode: RegionMode,
     stabilize_head: bool,
     upper_bound: f64,
     rate_hz: f64,
+    /// By which an unobserved muscle fades in one frame.
+    decay: f64,
 
     /// Contractions in the solver's order.
     x: Vec<f64>,
@@ -86,17 +90,20 @@ impl ContractionSolver {
     ) -> Self {
         let model = MarkerModel::new(actor, alignment);
         let (n, m) = (model.n_markers(), model.n_muscles());
+        let similarity = &alignment.model_from_performance;
         let upper_bound = if settings.allow_exaggeration {
             EXAGGERATED
         } else {
             FULL
         };
         Self {
-            model_from_performance: alignment.model_from_performance,
+            linear_part: similarity.rotation.to_rotation_matrix().into_inner() * similarity.scale,
+            translation_cm: similarity.translation_cm,
             region_mode: settings.region_mode,
             stabilize_head: settings.stabilize_head,
             upper_bound,
             rate_hz,
+            decay: decay(rate_hz),
             x: vec![0.0; m],
             motion: Stabilizer::identity(),
             frames_since_pose: None,
@@ -132,6 +139,7 @@ impl ContractionSolver {
     /// The declared rate of the capture, when a new publisher declares another.
     pub fn set_rate_hz(&mut self, rate_hz: f64) {
         self.rate_hz = rate_hz;
+        self.decay = decay(rate_hz);
     }
 
     /// Solves one frame: one position a marker of the actor, in the actor's order.
@@ -161,12 +169,10 @@ impl ContractionSolver {
 
     /// Moves the visible markers into model space.
     fn align(&mut self, positions: &[Option<PerformancePoint>]) {
-        let similarity = &self.model_from_performance;
-        let linear = similarity.rotation.to_rotation_matrix().into_inner() * similarity.scale;
         for (j, &marker) in self.model.markers.iter().enumerate() {
             self.visible[j] = positions[marker].is_some();
             self.aligned[j] = positions[marker].map_or(Vector3::zeros(), |it| {
-                linear * it.0.coords + similarity.translation_cm
+                self.linear_part * it.0.coords + self.translation_cm
             });
         }
     }
@@ -191,6 +197,7 @@ impl ContractionSolver {
             self.joint.set_evidence(evidence);
         }
         let m = self.model.n_muscles();
+        self.free_all();
         match self.region_mode {
             RegionMode::Joint => fill_block(&mut self.whole, &evidence.gram, m, 0..m),
             RegionMode::Split => {
@@ -198,6 +205,20 @@ impl ContractionSolver {
                     let gram = gram(&self.model, &evidence.own_used[index]);
                     fill_block(qp, &gram, m, self.model.own_muscles[index].clone());
                 }
+            }
+        }
+    }
+
+    /// Gives every muscle its box; those that this frame fixes are fixed before each solve.
+    fn free_all(&mut self) {
+        let upper = self.upper_bound;
+        for i in 0..self.model.n_muscles() {
+            self.joint.qp.set_bounds(i, 0.0, upper);
+            self.whole.set_bounds(i, 0.0, upper);
+        }
+        for qp in &mut self.apart {
+            for i in 0..qp.len() {
+                qp.set_bounds(i, 0.0, upper);
             }
         }
     }
@@ -227,10 +248,9 @@ impl ContractionSolver {
 
     /// Hidden muscles fade (METHODS 5b, step 2); held ones stand still.
     fn decay_unobserved(&mut self, evidence: &Evidence) {
-        let factor = (-1.0 / (UNOBSERVED_DECAY_SECS * self.rate_hz)).exp();
         for (x, part) in self.x.iter_mut().zip(&evidence.parts) {
             if *part == Part::Unobserved {
-                *x *= factor;
+                *x *= self.decay;
             }
         }
     }
@@ -242,12 +262,7 @@ impl ContractionSolver {
             return false;
         }
         let before = self.x.clone();
-        bound(
-            &mut self.joint.qp,
-            &evidence.parts,
-            &self.x,
-            self.upper_bound,
-        );
+        fix(&mut self.joint.qp, &evidence.parts, &self.x);
         let report = self.joint.solve(
             &self.model,
             evidence,
@@ -307,7 +322,7 @@ impl ContractionSolver {
                     0..m,
                     &mut self.linear,
                 );
-                bound(&mut self.whole, &evidence.parts, &self.x, self.upper_bound);
+                fix(&mut self.whole, &evidence.parts, &self.x);
                 match self.whole.solve(&self.linear, &mut self.x) {
                     Ok(report) => self.kkt_residual = report.kkt_residual,
                     Err(_) => self.hold_all(HeldReason::SolverBudget),
@@ -337,7 +352,7 @@ impl ContractionSolver {
         );
         let qp = &mut self.apart[index];
         let x = &mut self.x[muscles.clone()];
-        bound(qp, &evidence.parts[muscles], x, self.upper_bound);
+        fix(qp, &evidence.parts[muscles], x);
         match qp.solve(linear, x) {
             Ok(report) => self.kkt_residual = self.kkt_residual.max(report.kkt_residual),
             Err(_) => self.regions[index].held = Some(HeldReason::SolverBudget),
@@ -346,9 +361,7 @@ impl ContractionSolver {
 
     /// p = p₀ + D x at every marker.
     fn reproduce(&mut self) {
-        for (point, rest) in self.reproduced.chunks_exact_mut(3).zip(&self.model.rest) {
-            point.copy_from_slice(rest.as_slice());
-        }
+        self.reproduced.copy_from_slice(&self.model.rest_by_rows);
         for (i, &x) in self.x.iter().enumerate() {
             if x != 0.0 {
                 for (p, d) in self.reproduced.iter_mut().zip(self.model.column(i)) {
@@ -425,6 +438,11 @@ impl ContractionSolver {
     }
 }
 
+/// What is left of an unobserved contraction after one frame.
+fn decay(rate_hz: f64) -> f64 {
+    (-1.0 / (UNOBSERVED_DECAY_SECS * rate_hz)).exp()
+}
+
 /// `c = Dᵀd` over some markers for a range of muscles.
 fn correlate(
     model: &MarkerModel,
@@ -444,24 +462,23 @@ fn correlate(
     }
 }
 
-/// Solved muscles get their box, all others are fixed where they stand.
-fn bound(qp: &mut BoxQp, parts: &[Part], x: &[f64], upper: f64) {
+/// Fixes the muscles that are not solved for where they stand.
+fn fix(qp: &mut BoxQp, parts: &[Part], x: &[f64]) {
     for (i, (part, &x)) in parts.iter().zip(x).enumerate() {
-        match part {
-            Part::Solved => qp.set_bounds(i, 0.0, upper),
-            Part::Unobserved | Part::Held => qp.set_bounds(i, x, x),
+        if *part != Part::Solved {
+            qp.set_bounds(i, x, x);
         }
     }
 }
 
 /// Gives a box QP the block of `gram` (columns m apart) that belongs to its muscles.
 fn fill_block(qp: &mut BoxQp, gram: &[f64], m: usize, muscles: Range<usize>) {
-    let size = muscles.len();
+    let (size, stride) = (muscles.len(), qp.stride());
     qp.set_hessian(|q| {
         for (i, muscle) in muscles.clone().enumerate() {
             let column = &gram[muscle * m..(muscle + 1) * m];
-            q[i * size..(i + 1) * size].copy_from_slice(&column[muscles.clone()]);
-            q[i * size + i] += RIDGE;
+            q[i * stride..i * stride + size].copy_from_slice(&column[muscles.clone()]);
+            q[i * stride + i] += RIDGE;
         }
     });
 }

@@ -125,22 +125,22 @@ impl JointProblem {
     /// Takes over the sums that do not depend on the motion: the muscles' block and the translation's.
     pub fn set_evidence(&mut self, evidence: &Evidence) {
         let m = evidence.parts.len();
-        let size = m + MOTION;
+        let (size, stride) = (m + MOTION, self.qp.stride());
         let n = evidence.used.len() as f64;
         self.qp.set_hessian(|q| {
             q.fill(0.0);
             for (i, column) in evidence.gram.chunks_exact(m.max(1)).enumerate() {
-                q[i * size..i * size + m].copy_from_slice(column);
-                q[i * size + i] += RIDGE;
+                q[i * stride..i * stride + m].copy_from_slice(column);
+                q[i * stride + i] += RIDGE;
                 for axis in 0..3 {
                     let value = -evidence.displacement_sums[i][axis];
                     let k = m + 3 + axis;
-                    q[i * size + k] = value;
-                    q[k * size + i] = value;
+                    q[i * stride + k] = value;
+                    q[k * stride + i] = value;
                 }
             }
             for k in m + 3..size {
-                q[k * size + k] = n + RIDGE;
+                q[k * stride + k] = n + RIDGE;
             }
         });
     }
@@ -211,18 +211,18 @@ impl JointProblem {
             self.linear[m + axis] = -torque[axis];
             self.linear[m + 3 + axis] = -force[axis];
         }
-        let (size, moments) = (m + MOTION, &self.moments);
+        let (stride, moments) = (self.qp.stride(), &self.moments);
         self.qp.set_hessian(|q| {
             for axis in 0..3 {
                 let k = m + axis;
                 for (i, value) in moments[axis].iter().enumerate() {
-                    q[k * size + i] = -value;
-                    q[i * size + k] = -value;
+                    q[k * stride + i] = -value;
+                    q[i * stride + k] = -value;
                 }
                 for other in 0..3 {
-                    q[k * size + m + other] = inertia[(axis, other)];
+                    q[k * stride + m + other] = inertia[(axis, other)];
                 }
-                q[k * size + k] += RIDGE;
+                q[k * stride + k] += RIDGE;
             }
         });
         center

@@ -26,6 +26,8 @@ pub(super) struct MarkerModel {
     pub expected: [usize; 2],
     /// Virtual markers of the neutral face, centimeters.
     pub rest: Vec<Vector3<f64>>,
+    /// The same, x y z of each after the other.
+    pub rest_by_rows: Vec<f64>,
     /// D by rows: entry `(3 * marker + axis) * n_muscles + muscle`, centimeters.
     pub rows: Vec<f64>,
     /// D by columns: entry `muscle * 3 * n_markers + 3 * marker + axis`, centimeters.
@@ -58,11 +60,13 @@ impl MarkerModel {
             let own = |it: &&crate::face::marker::Marker| it.region == region && !it.head_fixed;
             actor.markers().iter().filter(own).count()
         });
+        let rest: Vec<Vector3<f64>> = markers
+            .iter()
+            .map(|&it| basis.neutral[it].0.coords)
+            .collect();
         let mut model = Self {
-            rest: markers
-                .iter()
-                .map(|&it| basis.neutral[it].0.coords)
-                .collect(),
+            rest_by_rows: rest.iter().flatten().copied().collect(),
+            rest,
             rows: vec![0.0; 3 * markers.len() * muscles.len()],
             columns: vec![0.0; 3 * markers.len() * muscles.len()],
             markers,

@@ -1,16 +1,21 @@
-//! Strictly convex quadratic programs with one interval an unknown, by a primal active set method.
+//! Strictly convex quadratic programs with one interval an unknown, by an active set method.
 //!
 //! Minimizes ½ xᵀQx − cᵀx subject to l ≤ x ≤ u (Choe & Ko 2001, eq. 3, with the common factor 2 dropped).
-//! Each step solves the free unknowns exactly, stops at the first bound in the way, and, once none is, releases the bound
-//! whose Lagrange multiplier has the wrong sign by most.
-//! Started from the solution of the frame before, a frame usually costs one solve with a factor that is already there.
+//! Each step solves the free unknowns exactly, the others at their bounds.
+//! The first steps then exchange every unknown that is wrong at once: free ones beyond a bound, bound ones whose Lagrange
+//! multiplier has the wrong sign (block pivoting). Started from the frame before, one or two such steps are usual.
+//! Block pivoting may go in circles; the primal method takes over after a few steps and cannot: it walks towards the solution
+//! of the free unknowns, stops at the first bound in the way, and, once none is, releases the worst multiplier alone.
 
-use super::cholesky::Cholesky;
+use super::factor::{Factor, LANES, subtract_multiple};
 
 /// How far, relative to the largest diagonal entry of Q, a multiplier may have the wrong sign in a solution.
 pub const MULTIPLIER_TOLERANCE: f64 = 1e-11;
 
-/// Steps allowed for m unknowns: `STEPS_FIXED + STEPS_PER_UNKNOWN * m`. Real frames need one to five.
+/// Steps that exchange every wrong unknown at once, before the primal method takes over.
+const BLOCK_STEPS: usize = 8;
+
+/// Primal steps allowed for m unknowns: `STEPS_FIXED + STEPS_PER_UNKNOWN * m`.
 const STEPS_FIXED: usize = 40;
 const STEPS_PER_UNKNOWN: usize = 10;
 
@@ -26,17 +31,22 @@ enum Place {
 #[derive(Clone, Debug)]
 pub struct BoxQp {
     m: usize,
-    /// Symmetric, stored in full, columns m apart.
+    /// Distance of the columns of Q: m, padded.
+    stride: usize,
+    /// Symmetric, stored in full.
     hessian: Vec<f64>,
     largest_diagonal: f64,
     lower: Vec<f64>,
     upper: Vec<f64>,
     place: Vec<Place>,
     free: Vec<usize>,
-    /// The free set that `cholesky` holds the factor of; `None` when Q has changed since.
+    /// The free set that `factor` belongs to; `None` when Q has changed since.
     factored: Option<Vec<usize>>,
-    cholesky: Cholesky,
+    factor: Factor,
+    /// Solution of the free unknowns, in the order of `free`.
     target: Vec<f64>,
+    /// c less what the bound unknowns take of it.
+    remainder: Vec<f64>,
     gradient: Vec<f64>,
 }
 
@@ -63,18 +73,21 @@ pub enum BoxQpError {
 impl BoxQp {
     /// A program of `m` unknowns, 0 ≤ x ≤ 1, whose Q is yet to be given.
     pub fn new(m: usize) -> Self {
+        let stride = m.next_multiple_of(LANES);
         Self {
             m,
-            hessian: vec![0.0; m * m],
+            stride,
+            hessian: vec![0.0; m * stride],
             largest_diagonal: 0.0,
             lower: vec![0.0; m],
             upper: vec![1.0; m],
             place: vec![Place::Lower; m],
             free: Vec::with_capacity(m),
             factored: None,
-            cholesky: Cholesky::with_capacity(m),
-            target: vec![0.0; m],
-            gradient: vec![0.0; m],
+            factor: Factor::with_capacity(m),
+            target: vec![0.0; stride],
+            remainder: vec![0.0; stride],
+            gradient: vec![0.0; stride],
         }
     }
 
@@ -83,16 +96,21 @@ impl BoxQp {
         self.m
     }
 
+    /// Distance of the columns of Q: m, padded to a multiple of [`LANES`]; the padding is 0.
+    pub fn stride(&self) -> usize {
+        self.stride
+    }
+
     /// Whether there is nothing to solve for.
     pub fn is_empty(&self) -> bool {
         self.m == 0
     }
 
-    /// Replaces Q, m × m, symmetric: `fill` writes it in full, columns m apart.
+    /// Replaces Q, m × m, symmetric: `fill` changes what is there, in full, columns [`BoxQp::stride`] apart.
     pub fn set_hessian(&mut self, fill: impl FnOnce(&mut [f64])) {
         fill(&mut self.hessian);
         self.factored = None;
-        let diagonal = self.hessian.iter().step_by(self.m + 1);
+        let diagonal = self.hessian.iter().step_by(self.stride + 1);
         self.largest_diagonal = diagonal.fold(0.0, |largest: f64, &it| largest.max(it));
     }
 
@@ -114,23 +132,61 @@ impl BoxQp {
     /// When Q is not positive definite on the free unknowns, or the step limit is reached; `x` is then some point of the box.
     pub fn solve(&mut self, c: &[f64], x: &mut [f64]) -> Result<Report, BoxQpError> {
         self.start(x);
+        for steps in 1..=BLOCK_STEPS {
+            self.solve_free(c, x)?;
+            if !self.exchange(x) {
+                return Ok(self.report(steps));
+            }
+        }
+        self.start(x);
+        self.solve_primal(c, x)
+    }
+
+    /// One exchange at a time, with a falling objective.
+    fn solve_primal(&mut self, c: &[f64], x: &mut [f64]) -> Result<Report, BoxQpError> {
         let budget = STEPS_FIXED + STEPS_PER_UNKNOWN * self.m;
         for steps in 1..=budget {
             self.solve_free(c, x)?;
             if self.advance(x) {
                 continue;
             }
-            self.compute_gradient(c, x);
-            let Some(unknown) = self.worst_multiplier() else {
-                let kkt_residual = self.kkt_residual();
-                return Ok(Report {
-                    steps,
-                    kkt_residual,
-                });
-            };
-            self.place[unknown] = Place::Free;
+            self.compute_gradient(x);
+            match self.worst_multiplier() {
+                Some(unknown) => self.place[unknown] = Place::Free,
+                None => return Ok(self.report(BLOCK_STEPS + steps)),
+            }
         }
         Err(BoxQpError::Budget(budget))
+    }
+
+    fn report(&self, steps: usize) -> Report {
+        Report {
+            steps,
+            kkt_residual: self.kkt_residual(),
+        }
+    }
+
+    /// Takes over the solution of the free unknowns and exchanges all that are wrong; says whether there were any.
+    fn exchange(&mut self, x: &mut [f64]) -> bool {
+        for (&i, &target) in self.free.iter().zip(&self.target) {
+            x[i] = target;
+        }
+        self.compute_gradient(x);
+        let tolerance = MULTIPLIER_TOLERANCE * self.largest_diagonal;
+        let mut exchanged = false;
+        for (i, value) in x.iter_mut().enumerate() {
+            let (lower, upper) = (self.lower[i], self.upper[i]);
+            match self.place[i] {
+                Place::Free if *value < lower => (*value, self.place[i]) = (lower, Place::Lower),
+                Place::Free if *value > upper => (*value, self.place[i]) = (upper, Place::Upper),
+                Place::Lower | Place::Upper if self.violation(i) > tolerance => {
+                    self.place[i] = Place::Free;
+                }
+                _ => continue,
+            }
+            exchanged = true;
+        }
+        exchanged
     }
 
     /// Moves the start into the box and reads off which bounds it touches.
@@ -151,24 +207,20 @@ impl BoxQp {
     /// Minimizes over the free unknowns alone, the others at their bounds; the result is `target`.
     fn solve_free(&mut self, c: &[f64], x: &[f64]) -> Result<(), BoxQpError> {
         self.free.clear();
-        let place = &self.place;
-        self.free
-            .extend((0..self.m).filter(|&i| place[i] == Place::Free));
-        self.refactor()?;
-        // What the bound unknowns leave of c, in full length so that the loop runs over contiguous columns.
-        self.gradient.copy_from_slice(c);
-        for (j, &value) in x.iter().enumerate() {
-            if self.place[j] != Place::Free && value != 0.0 {
-                let column = &self.hessian[j * self.m..(j + 1) * self.m];
-                for (g, q) in self.gradient.iter_mut().zip(column) {
-                    *g -= q * value;
-                }
+        self.remainder[..self.m].copy_from_slice(c);
+        for (j, (&value, place)) in x.iter().zip(&self.place).enumerate() {
+            if *place == Place::Free {
+                self.free.push(j);
+            } else if value != 0.0 {
+                let column = &self.hessian[j * self.stride..(j + 1) * self.stride];
+                subtract_multiple(&mut self.remainder, value, column);
             }
         }
+        self.refactor()?;
         for (t, &i) in self.target.iter_mut().zip(&self.free) {
-            *t = self.gradient[i];
+            *t = self.remainder[i];
         }
-        self.cholesky.solve(&mut self.target[..self.free.len()]);
+        self.factor.solve(&mut self.target);
         Ok(())
     }
 
@@ -178,8 +230,8 @@ impl BoxQp {
             return Ok(());
         }
         let mut factored = self.factored.take().unwrap_or_default();
-        self.cholesky
-            .factor(&self.hessian, self.m, &self.free)
+        self.factor
+            .factor(&self.hessian, self.stride, &self.free)
             .map_err(|_| BoxQpError::NotConvex)?;
         factored.clone_from(&self.free);
         self.factored = Some(factored);
@@ -218,18 +270,14 @@ impl BoxQp {
         blocking.is_some()
     }
 
-    /// g = Qx − c.
-    fn compute_gradient(&mut self, c: &[f64], x: &[f64]) {
-        for (g, c) in self.gradient.iter_mut().zip(c) {
-            *g = -c;
+    /// g = Qx − c, of which the bound unknowns' part is known from the remainder.
+    fn compute_gradient(&mut self, x: &[f64]) {
+        for (g, r) in self.gradient.iter_mut().zip(&self.remainder) {
+            *g = -r;
         }
-        for (j, &value) in x.iter().enumerate() {
-            if value != 0.0 {
-                let column = &self.hessian[j * self.m..(j + 1) * self.m];
-                for (g, q) in self.gradient.iter_mut().zip(column) {
-                    *g += q * value;
-                }
-            }
+        for &j in &self.free {
+            let column = &self.hessian[j * self.stride..(j + 1) * self.stride];
+            subtract_multiple(&mut self.gradient, -x[j], column);
         }
     }
 
