@@ -1,17 +1,27 @@
-//! One frame of the camera stage: project 32 markers (27 + 5 head-fixed) through five cameras, triangulate them again.
-//!
-//! Beside it, for scale, the bare product of an 81 × 16 matrix and a vector: what 27 markers × 16 muscles cost at least.
+//! CPU time of one frame of the camera stage: 32 markers (27 + 5 head-fixed) projected through five cameras and triangulated.
 
-use divan::{Bencher, black_box};
+use std::hint::black_box;
+
 use frontalis_analysis::{
     space::PerformancePoint,
     stage::{camera::ImagePoint, rig::CameraRig},
     synthesis::reference_face,
 };
-use nalgebra::{DMatrix, DVector, Unit, UnitQuaternion, Vector3};
+use nalgebra::{Unit, UnitQuaternion, Vector3};
+
+mod cpu_clock;
 
 fn main() {
-    divan::main();
+    let product = cpu_clock::matrix_vector_nanos();
+    cpu_clock::print_row("bare matrix-vector product, 81 x 16", product, product);
+    let whole = project_and_triangulate_nanos();
+    cpu_clock::print_row(
+        "32 markers: project, five cameras, triangulate",
+        whole,
+        product,
+    );
+    let back = triangulate_nanos();
+    cpu_clock::print_row("32 markers: triangulate only", back, product);
 }
 
 /// The markers of the reference face with the normals of the skin under them; model space serves as the stage.
@@ -33,45 +43,32 @@ fn rig() -> CameraRig {
     CameraRig::arc(5, target, UnitQuaternion::identity()).expect("five cameras are a rig")
 }
 
-#[divan::bench]
-fn project_five_cameras_and_triangulate_32_markers(bencher: Bencher) {
+fn project_and_triangulate_nanos() -> f64 {
     let (rig, markers) = (rig(), markers());
-    bencher.bench_local(|| {
+    cpu_clock::median_nanos(|| {
         let mut sum = Vector3::zeros();
         for (marker, normal) in black_box(&markers) {
             if let Ok(place) = rig.triangulate(rig.views(*marker, normal)) {
                 sum += place.0.coords;
             }
         }
-        sum
-    });
+        black_box(sum);
+    })
 }
 
-#[divan::bench]
-fn triangulate_32_markers(bencher: Bencher) {
+fn triangulate_nanos() -> f64 {
     let (rig, markers) = (rig(), markers());
     let views: Vec<Vec<Option<ImagePoint>>> = markers
         .iter()
         .map(|(marker, normal)| rig.views(*marker, normal).collect())
         .collect();
-    bencher.bench_local(|| {
+    cpu_clock::median_nanos(|| {
         let mut sum = Vector3::zeros();
         for seen in black_box(&views) {
             if let Ok(place) = rig.triangulate(seen.iter().copied()) {
                 sum += place.0.coords;
             }
         }
-        sum
-    });
-}
-
-#[divan::bench]
-fn bare_matrix_vector_product_81_by_16(bencher: Bencher) {
-    let matrix = DMatrix::from_fn(81, 16, |row, column| ((row * 16 + column) as f64).sin());
-    let vector = DVector::from_fn(16, |row, _| row as f64 / 16.0);
-    let mut product = DVector::zeros(81);
-    bencher.bench_local(move || {
-        product.gemv(1.0, black_box(&matrix), black_box(&vector), 0.0);
-        black_box(product.sum())
-    });
+        black_box(sum);
+    })
 }
