@@ -2,6 +2,7 @@
 //!
 //! Layers, each of which names only what stands to its right: `service → wire → session → hub`, all on
 //! `frontalis_analysis`; [`catalogue`] keeps what survives a restart.
+//! [`run`] joins them: configuration and a bound port in, a [`Server`] out that stops when it is told to.
 
 pub mod catalogue;
 pub mod clock;
@@ -12,5 +13,10 @@ pub mod hub;
 pub mod name;
 pub mod service;
 pub mod session;
+pub mod shutdown;
 pub mod telemetry;
 pub mod wire;
+
+mod server;
+
+pub use server::{RunError, Server, run};

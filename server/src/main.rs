@@ -1,2 +1,105 @@
-//! x
-fn main() {}
+//! The server's program: configuration, log, port, run, wait for the signal, exit code.
+
+use std::{io, process::ExitCode};
+
+use anyhow::Context as _;
+use clap::Parser as _;
+use frontalis_server::{
+    config::{
+        Config,
+        layers::{Flags, load},
+        worst_case,
+    },
+    service::listener::bind,
+    shutdown::StopSignals,
+    telemetry::start_log,
+};
+use tokio_util::sync::CancellationToken;
+
+fn main() -> ExitCode {
+    match start(&Flags::parse()) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            // One line, the cause last, so that an operator sees it without a log reader.
+            eprintln!("frontalis-server: {error:#}");
+            ExitCode::FAILURE
+        }
+    }
+}
+
+fn start(flags: &Flags) -> anyhow::Result<()> {
+    let environment = std::env::vars_os()
+        .filter_map(|(name, value)| Some((name.into_string().ok()?, value.into_string().ok()?)));
+    let config = load(flags, environment)?;
+    if flags.check {
+        print!("{}", config.to_toml());
+        print_memory(&config);
+        return Ok(());
+    }
+    start_log(&config.log)?;
+    tokio::runtime::Builder::new_multi_thread()
+        .enable_all()
+        .build()
+        .context("the runtime cannot be started")?
+        .block_on(serve(config))
+}
+
+async fn serve(config: Config) -> anyhow::Result<()> {
+    let mut signals = StopSignals::take().context("the signals cannot be taken over")?;
+    let listener = bind(config.listen, &config.transport).map_err(|error| busy(&config, error))?;
+    say(&config);
+    let shutdown = CancellationToken::new();
+    let server = frontalis_server::run(config, listener, shutdown.clone()).await?;
+    println!("listening on http://{}", server.address());
+    let signal = signals.next().await;
+    tracing::info!(signal, "asked to stop");
+    shutdown.cancel();
+    tokio::select! {
+        _ = server.stopped() => Ok(()),
+        signal = signals.next() => {
+            tracing::warn!(signal, "asked again, stopping at once");
+            std::process::exit(1);
+        }
+    }
+}
+
+fn busy(config: &Config, error: io::Error) -> anyhow::Error {
+    let listen = config.listen;
+    match error.kind() {
+        io::ErrorKind::AddrInUse => anyhow::anyhow!(
+            "{listen} is in use by another program; stop it or choose another address with --listen"
+        ),
+        _ => anyhow::Error::new(error).context(format!("{listen} cannot be listened on")),
+    }
+}
+
+/// The configuration as it takes effect, for whoever reads the log later.
+fn say(config: &Config) {
+    for line in config.to_toml().lines().filter(|it| !it.is_empty()) {
+        tracing::info!("config: {line}");
+    }
+    for item in worst_case(config) {
+        tracing::info!(
+            what = item.what,
+            mib = item.bytes >> 20,
+            "worst-case memory"
+        );
+    }
+    if config.is_exposed() {
+        tracing::warn!("INSECURE: others can reach this port, without TLS and authentication");
+    }
+}
+
+fn print_memory(config: &Config) {
+    println!("\n# Worst-case memory:");
+    let items = worst_case(config);
+    for item in &items {
+        println!("# {:>8} MiB  {}", item.bytes >> 20, item.what);
+    }
+    let sum: u64 = items.iter().map(|it| it.bytes).sum();
+    println!(
+        "# {:>8} MiB  of a budget of {} MiB",
+        sum >> 20,
+        config.memory_budget_mib
+    );
+}

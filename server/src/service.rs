@@ -1,3 +1,8 @@
 //! The doors of the server: gRPC and plain HTTP.
 
+pub mod door;
 pub mod grpc;
+pub mod http;
+pub mod keeper;
+pub mod listener;
+pub mod sessions;

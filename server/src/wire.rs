@@ -1,5 +1,10 @@
 //! Protobuf messages to domain types and back: checked once here, never again below.
 
+pub mod actor;
 pub mod capture;
 pub mod common;
 pub mod curve;
+pub mod invalid;
+pub mod json;
+pub mod page;
+pub mod session;

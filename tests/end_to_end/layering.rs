@@ -67,7 +67,7 @@ const LAYERS: &[(&str, &[&str])] = &[
 const GROUND: &[&str] = &["clock", "executor", "fs", "name", "telemetry"];
 
 /// What stands above the layers and joins them.
-const ROOF: &[&str] = &["config", "lib", "main", "shutdown"];
+const ROOF: &[&str] = &["config", "lib", "main", "server", "shutdown"];
 
 /// A library, and the only layers of the server that may name it.
 const LIBRARIES: &[(&str, &[&str])] = &[

@@ -2,7 +2,10 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use frontalis_analysis::face::actor::Actor;
+use frontalis_analysis::{
+    face::actor::{Actor, RankPolicy},
+    format::actor_package,
+};
 
 use super::{
     ActorRevision, Catalogue, CatalogueError, NewRevision, NewSession, SessionRow, StoredAlignment,
@@ -279,6 +282,11 @@ impl Store {
         Ok(loaded)
     }
 
+    /// Keeps an actor that was just imported, so that it need not be read again.
+    pub fn keep_loaded(&self, actor: &ActorId, revision: u32, loaded: &Arc<Actor>) {
+        self.cache.put(actor, revision, loaded);
+    }
+
     async fn commit<T, F>(&self, call: F) -> Result<T, CatalogueError>
     where
         T: Send + 'static,
@@ -290,12 +298,17 @@ impl Store {
 }
 
 fn load(catalogue: &Catalogue, id: &ActorId, revision: u32) -> Result<Arc<Actor>, ActorLoadError> {
-    let (_bytes, _regularized) = catalogue.package(id, revision)?;
-    Err(ActorLoadError::Package {
+    let (package, regularized) = catalogue.package(id, revision)?;
+    let rank = match regularized {
+        true => RankPolicy::Regularize,
+        false => RankPolicy::Refuse,
+    };
+    let read = actor_package::read(&package, rank).map_err(|error| ActorLoadError::Package {
         actor: id.clone(),
         revision,
-        reason: "the reader is not built in".to_owned(),
-    })
+        reason: error.to_string(),
+    })?;
+    Ok(Arc::new(read.actor))
 }
 
 /// The actors that were asked for last, newest at the end.

@@ -1,5 +1,9 @@
 //! The gRPC services of `frontalis.v1`.
 
+pub mod actors;
 pub mod capture;
 pub mod curves;
+mod refusal;
+pub mod sessions;
 pub mod status;
+pub mod takes;

@@ -16,12 +16,13 @@ use hyper_util::{
     server::conn::auto,
 };
 use tokio::net::{TcpListener, TcpSocket, TcpStream};
-use tokio_util::{sync::CancellationToken, task::TaskTracker};
+use tokio_util::task::TaskTracker;
 use tonic::transport::server::TcpConnectInfo;
 use tower::ServiceExt as _;
 
 use crate::{
     config::{Config, Transport},
+    shutdown::Phases,
     telemetry::Metrics,
 };
 use admission::{Admission, Permit};
@@ -67,23 +68,21 @@ pub struct Listener {
     pub router: Router,
     /// Where connections are counted.
     pub metrics: Metrics,
-    /// Stops accepting.
-    pub closed: CancellationToken,
-    /// Every connection finishes what it has begun and begins nothing more.
-    pub draining: CancellationToken,
+    /// When to stop accepting, to finish, and to give up.
+    pub phases: Phases,
     /// Owns the connections' tasks.
     pub tasks: TaskTracker,
 }
 
 impl Listener {
-    /// Accepts until `closed`.
+    /// Accepts until the server closes.
     pub async fn run(self, config: Config) {
         let admission = Admission::new(&config.limits, self.metrics.clone());
         let http = http(&config);
         let mut pause = BACK_OFF[0];
         loop {
             let accepted = tokio::select! {
-                () = self.closed.cancelled() => return,
+                () = self.phases.closing.cancelled() => return,
                 accepted = self.listener.accept() => accepted,
             };
             match accepted {
@@ -122,33 +121,39 @@ impl Listener {
         let io = TokioIo::new(Opening::new(stream, deadline));
         let service = serve(self.router.clone(), local, peer);
         let connection = http.serve_connection(io, service).into_owned();
-        let draining = self.draining.clone();
+        let phases = self.phases.clone();
         self.tasks.spawn(async move {
             let _permit = permit;
-            drive(connection, &draining).await;
+            drive(connection, &phases).await;
         });
     }
 }
 
-/// Polls a connection to its end; when the server drains, it is asked to end.
+/// Polls a connection to its end; when the server closes it is asked to end, when the server gives up it is dropped.
 async fn drive<S, B>(
     connection: auto::Connection<'static, TokioIo<Opening<TcpStream>>, S, TokioExecutor>,
-    draining: &CancellationToken,
+    phases: &Phases,
 ) where
-    S: hyper::service::HttpService<Incoming, ResBody = B>,
+    S: hyper::service::Service<http::Request<Incoming>, Response = http::Response<B>>,
     S::Error: Into<Box<dyn std::error::Error + Send + Sync>>,
     S::Future: Send + 'static,
-    B: http_body::Body + Send + 'static,
+    B: hyper::body::Body + Send + 'static,
     B::Data: Send,
     B::Error: Into<Box<dyn std::error::Error + Send + Sync>>,
 {
     let mut connection = pin!(connection);
-    let ended = tokio::select! {
-        ended = connection.as_mut() => ended,
-        () = draining.cancelled() => {
-            connection.as_mut().graceful_shutdown();
-            connection.await
+    let polite = async {
+        tokio::select! {
+            ended = connection.as_mut() => ended,
+            () = phases.closing.cancelled() => {
+                connection.as_mut().graceful_shutdown();
+                connection.await
+            }
         }
+    };
+    let ended = tokio::select! {
+        ended = polite => ended,
+        () = phases.cut.cancelled() => return,
     };
     if let Err(error) = ended {
         tracing::debug!(%error, "a connection ended early");

@@ -75,12 +75,21 @@ impl Refusal {
 
 /// The reason in a status, when it carries one of ours.
 pub fn reason_of(status: &Status) -> Option<String> {
+    Some(info_of(status)?.reason)
+}
+
+/// The figures in a status, by key.
+pub fn metadata_of(status: &Status) -> Vec<(String, String)> {
+    info_of(status).map_or_else(Vec::new, |info| info.metadata.into_iter().collect())
+}
+
+fn info_of(status: &Status) -> Option<ErrorInfo> {
     let rpc = RpcStatus::decode(status.details()).ok()?;
     let info = rpc
         .details
         .iter()
         .find(|it| it.type_url.ends_with("/google.rpc.ErrorInfo"))?;
-    Some(ErrorInfo::decode(info.value.as_slice()).ok()?.reason)
+    ErrorInfo::decode(info.value.as_slice()).ok()
 }
 
 fn packed(name: &str, message: &impl prost::Message) -> prost_types::Any {

@@ -46,12 +46,14 @@ impl Admission {
     pub(super) fn admit(&self, peer: IpAddr) -> Option<Permit> {
         let mut open = self.open();
         if open.all >= self.limit {
-            self.metrics.connection_refused(ConnectionLimit::Connections);
+            self.metrics
+                .connection_refused(ConnectionLimit::Connections);
             return None;
         }
         let of_peer = open.by_peer.entry(peer).or_default();
         if *of_peer >= self.limit_per_peer {
-            self.metrics.connection_refused(ConnectionLimit::ConnectionsPerPeer);
+            self.metrics
+                .connection_refused(ConnectionLimit::ConnectionsPerPeer);
             return None;
         }
         *of_peer += 1;

@@ -122,7 +122,9 @@ mod tests {
                 }
             }
         };
-        tokio::time::timeout(WITHIN * 10, all).await.unwrap_or(false)
+        tokio::time::timeout(WITHIN * 10, all)
+            .await
+            .unwrap_or(false)
     }
 
     #[tokio::test(start_paused = true)]

@@ -1,0 +1,246 @@
+//! One server from start to end: everything that runs is started here and joined here.
+
+use std::{io, net::SocketAddr, time::SystemTime};
+
+use tokio::{net::TcpListener, sync::mpsc, time::timeout};
+use tokio_util::{sync::CancellationToken, task::TaskTracker};
+use tonic_health::server::HealthReporter;
+
+use crate::{
+    catalogue::{Catalogue, CatalogueError, Store},
+    clock::ServerClock,
+    config::{Config, ConfigError, Limits, worst_case},
+    executor::Workers,
+    fs::MemFs,
+    service::{
+        door::{self, ReflectionError, Services},
+        grpc::{
+            actors::ActorsGrpc, capture::CaptureGrpc, curves::CurvesGrpc, sessions::SessionsGrpc,
+        },
+        http::Doors,
+        keeper::{self, EVENT_CAPACITY, Keeper},
+        listener::Listener,
+        sessions::Sessions,
+    },
+    session::{SessionLimits, SessionRegistry},
+    shutdown::Phases,
+    telemetry::Metrics,
+};
+
+/// Why a server does not start.
+#[derive(Debug, thiserror::Error)]
+pub enum RunError {
+    /// The configuration is refused.
+    #[error(transparent)]
+    Config(#[from] ConfigError),
+    /// The data directory cannot be used.
+    #[error("the catalogue cannot be opened")]
+    Catalogue(#[from] CatalogueError),
+    /// The port cannot be used.
+    #[error("the port cannot be used")]
+    Port(#[from] io::Error),
+    /// The protocol's descriptors are broken.
+    #[error(transparent)]
+    Reflection(#[from] ReflectionError),
+}
+
+/// A running server. Dropping it leaves it running; [`Server::stopped`] waits for its end.
+pub struct Server {
+    address: SocketAddr,
+    metrics: Metrics,
+    registry: SessionRegistry,
+    end: tokio::task::JoinHandle<bool>,
+}
+
+impl Server {
+    /// Where it listens.
+    pub fn address(&self) -> SocketAddr {
+        self.address
+    }
+
+    /// Its figures.
+    pub fn metrics(&self) -> &Metrics {
+        &self.metrics
+    }
+
+    /// Its sessions.
+    pub fn registry(&self) -> &SessionRegistry {
+        &self.registry
+    }
+
+    /// Waits until everything is joined. True: all of it ended by itself; false: the grace was over and the rest was
+    /// cut.
+    pub async fn stopped(self) -> bool {
+        self.end.await.unwrap_or(false)
+    }
+}
+
+/// Starts a server on a bound port; it drains and stops when `shutdown` is cancelled.
+///
+/// The data directory is `config.data_dir`, or memory; see [`crate::config::IN_MEMORY`].
+///
+/// # Errors
+///
+/// [`RunError`]; then nothing runs.
+pub async fn run(
+    config: Config,
+    listener: TcpListener,
+    shutdown: CancellationToken,
+) -> Result<Server, RunError> {
+    config.validate()?;
+    let address = listener.local_addr()?;
+    let clock = ServerClock::start(SystemTime::now());
+    let metrics = Metrics::new(env!("CARGO_PKG_VERSION"));
+    metrics.set_insecure(!address.ip().is_loopback());
+    metrics.set_worst_case_bytes(worst_case(&config).iter().map(|it| it.bytes).sum());
+    metrics.set_ready(true);
+
+    let heavy = Workers::pool(count(config.workers));
+    // One connection to the database, so one worker: commits come one after the other anyway.
+    let commits = Workers::pool(1);
+    let directory = config.directory();
+    let catalogue = commits
+        .run(move || match directory {
+            Some(directory) => Catalogue::open(&directory),
+            None => Catalogue::in_memory(MemFs::default()),
+        })
+        .await?;
+    let cached = count(config.limits.cached_actors);
+    let store = Store::new(catalogue, commits, heavy.clone(), cached);
+    let (events, kept) = mpsc::channel(EVENT_CAPACITY);
+    let limits = session_limits(&config.limits);
+    let registry = SessionRegistry::new(limits.clone(), clock, events);
+    let sessions = Sessions::new(store.clone(), registry.clone(), clock, limits.sessions);
+    let phases = Phases::default();
+    let services = Services {
+        actors: ActorsGrpc::new(
+            store.clone(),
+            clock,
+            heavy,
+            config.limits.package_bytes(),
+            count(config.limits.imports),
+        ),
+        sessions: SessionsGrpc(sessions.clone()),
+        capture: CaptureGrpc::new(registry.clone(), store.clone(), clock),
+        curves: CurvesGrpc::new(registry.clone(), clock),
+        max_message_bytes: config.limits.message_bytes(),
+    };
+    let doors = Doors {
+        store: store.clone(),
+        sessions: sessions.clone(),
+        metrics: metrics.clone(),
+        phases: phases.clone(),
+    };
+    let (router, health) = door::router(services, doors).await?;
+
+    let drained = CancellationToken::new();
+    let upkeep = TaskTracker::new();
+    let keeper = Keeper {
+        store,
+        registry: registry.clone(),
+        clock,
+    };
+    upkeep.spawn(keeper.run(kept, drained.clone()));
+    let retention = std::time::Duration::from_secs(config.session_retention_hours * 3_600);
+    let n_restored = sessions.restore().await?;
+    if n_restored > 0 {
+        tracing::info!(n_restored, "sessions go on as new runs");
+    }
+    upkeep.spawn(keeper::collect(sessions, retention, drained.clone()));
+
+    let connections = TaskTracker::new();
+    let accepting = Listener {
+        listener,
+        router,
+        metrics: metrics.clone(),
+        phases: phases.clone(),
+        tasks: connections.clone(),
+    };
+    connections.spawn(accepting.run(config.clone()));
+    let ending = Ending {
+        grace: config.shutdown_grace(),
+        phases,
+        health,
+        registry: registry.clone(),
+        connections,
+        upkeep,
+        drained,
+        metrics: metrics.clone(),
+    };
+    let end = tokio::spawn(async move {
+        shutdown.cancelled().await;
+        ending.run().await
+    });
+    Ok(Server {
+        address,
+        metrics,
+        registry,
+        end,
+    })
+}
+
+/// What has to end, in order.
+struct Ending {
+    grace: std::time::Duration,
+    phases: Phases,
+    health: HealthReporter,
+    registry: SessionRegistry,
+    connections: TaskTracker,
+    upkeep: TaskTracker,
+    drained: CancellationToken,
+    metrics: Metrics,
+}
+
+impl Ending {
+    /// Drains within the grace, then cuts what is left. True: nothing had to be cut.
+    async fn run(mut self) -> bool {
+        tracing::info!("draining");
+        self.metrics.set_ready(false);
+        self.phases.draining.cancel();
+        let clean = timeout(self.grace, self.drain()).await.is_ok();
+        if !clean {
+            let n_connections = self.metrics.open_connections();
+            tracing::warn!(
+                n_connections,
+                "the grace is over, what is still open is cut"
+            );
+        }
+        self.phases.closing.cancel();
+        self.phases.cut.cancel();
+        self.connections.close();
+        self.connections.wait().await;
+        self.drained.cancel();
+        self.upkeep.close();
+        self.upkeep.wait().await;
+        tracing::info!("stopped");
+        clean
+    }
+
+    async fn drain(&mut self) {
+        door::report(&self.health, false).await;
+        self.registry.drain().await;
+        door::forget_health(&mut self.health).await;
+        self.phases.closing.cancel();
+        self.connections.close();
+        self.connections.wait().await;
+    }
+}
+
+fn session_limits(limits: &Limits) -> SessionLimits {
+    const MIB: u64 = 1024 * 1024;
+    SessionLimits {
+        sessions: count(limits.sessions),
+        subscribers_per_session: count(limits.subscribers_per_session),
+        subscribers: count(limits.subscribers),
+        waiting_frames: count(limits.waiting_frames),
+        waiting_bytes: count(limits.waiting_mib.saturating_mul(MIB)),
+        live_rate_hz: limits.frame_rate_hz as f64,
+        window_bytes: count(limits.window_mib.saturating_mul(MIB)),
+        buffer_bytes: count(limits.session_memory_mib.saturating_mul(MIB)),
+        ..SessionLimits::default()
+    }
+}
+
+fn count(n: u64) -> usize {
+    usize::try_from(n).unwrap_or(usize::MAX)
+}

@@ -1,0 +1,127 @@
+//! The one port's router: gRPC with health and reflection, plain HTTP, and one answer for everything else.
+
+use axum::{Router, extract::Request, middleware, response::Response};
+use frontalis_proto::{
+    FILE_DESCRIPTOR_SET,
+    v1::{
+        actor_service_server::ActorServiceServer, capture_service_server::CaptureServiceServer,
+        curve_service_server::CurveServiceServer, session_service_server::SessionServiceServer,
+        take_service_server::TakeServiceServer,
+    },
+};
+use tonic::service::Routes;
+use tonic_health::{ServingStatus, server::HealthReporter};
+use tower_http::catch_panic::CatchPanicLayer;
+
+use super::{
+    grpc::{
+        actors::{ActorsGrpc, MAX_CHUNK_BYTES},
+        capture::CaptureGrpc,
+        curves::CurvesGrpc,
+        sessions::SessionsGrpc,
+        takes::TakesGrpc,
+    },
+    http::{self, Doors, GrpcPanic, grpc_only, unknown, with_instance},
+};
+use crate::telemetry::Metrics;
+
+/// Largest request of a service whose messages are small, bytes.
+const SMALL_MESSAGE_BYTES: usize = 64 * 1024;
+
+/// A chunk and what is around it in its message, bytes.
+const CHUNK_MESSAGE_BYTES: usize = MAX_CHUNK_BYTES + 4 * 1024;
+
+/// Names that the health service knows, and whether they serve: takes do not yet.
+const HEALTH: [(&str, bool); 3] = [
+    ("", true),
+    ("frontalis.v1.CaptureService", true),
+    ("frontalis.v1.TakeService", false),
+];
+
+/// The services behind the port.
+pub struct Services {
+    /// Packages.
+    pub actors: ActorsGrpc,
+    /// Sessions.
+    pub sessions: SessionsGrpc,
+    /// Frames in.
+    pub capture: CaptureGrpc,
+    /// Curves out.
+    pub curves: CurvesGrpc,
+    /// Largest message of a publisher, bytes.
+    pub max_message_bytes: usize,
+}
+
+/// Why the router cannot be built.
+#[derive(Debug, thiserror::Error)]
+#[error("the descriptors of the protocol cannot be served")]
+pub struct ReflectionError(#[from] tonic_reflection::server::Error);
+
+/// Joins both doors. The reporter tells the health service when serving ends.
+///
+/// # Errors
+///
+/// When the descriptors in the binary are broken.
+pub async fn router(
+    services: Services,
+    doors: Doors,
+) -> Result<(Router, HealthReporter), ReflectionError> {
+    let metrics = doors.metrics.clone();
+    let (reporter, health) = tonic_health::server::health_reporter();
+    report(&reporter, true).await;
+    let reflection = || {
+        tonic_reflection::server::Builder::configure()
+            .register_encoded_file_descriptor_set(FILE_DESCRIPTOR_SET)
+            .register_encoded_file_descriptor_set(tonic_health::pb::FILE_DESCRIPTOR_SET)
+    };
+    let actors =
+        ActorServiceServer::new(services.actors).max_decoding_message_size(CHUNK_MESSAGE_BYTES);
+    let sessions =
+        SessionServiceServer::new(services.sessions).max_decoding_message_size(SMALL_MESSAGE_BYTES);
+    let capture = CaptureServiceServer::new(services.capture)
+        .max_decoding_message_size(services.max_message_bytes);
+    let curves =
+        CurveServiceServer::new(services.curves).max_decoding_message_size(SMALL_MESSAGE_BYTES);
+    let takes = TakeServiceServer::new(TakesGrpc).max_decoding_message_size(SMALL_MESSAGE_BYTES);
+    let grpc = Routes::new(actors)
+        .add_service(sessions)
+        .add_service(capture)
+        .add_service(curves)
+        .add_service(takes)
+        .add_service(health)
+        .add_service(reflection().build_v1()?)
+        .add_service(reflection().build_v1alpha()?)
+        .prepare()
+        .into_axum_router()
+        .reset_fallback()
+        .layer(CatchPanicLayer::custom(GrpcPanic(metrics.clone())))
+        .layer(middleware::from_fn_with_state(metrics.clone(), grpc_only));
+    let router = http::router(doors)
+        .merge(grpc)
+        .fallback(move |request| count_unknown(metrics.clone(), request))
+        .layer(middleware::from_fn(with_instance));
+    Ok((router, reporter))
+}
+
+async fn count_unknown(metrics: Metrics, request: Request) -> Response {
+    metrics.request(crate::telemetry::Protocol::Http);
+    unknown(request).await
+}
+
+/// Tells the health service whether the server serves.
+pub async fn report(reporter: &HealthReporter, serving: bool) {
+    for (name, built) in HEALTH {
+        let status = match serving && built {
+            true => ServingStatus::Serving,
+            false => ServingStatus::NotServing,
+        };
+        reporter.set_service_status(name, status).await;
+    }
+}
+
+/// Ends the streams of those who watch the health, so that they do not hold up the end.
+pub async fn forget_health(reporter: &mut HealthReporter) {
+    for (name, _) in HEALTH {
+        reporter.clear_service_status(name).await;
+    }
+}

@@ -1,0 +1,167 @@
+//! `ActorService`: packages in, actors listed, packages out.
+
+mod import;
+
+use std::{pin::Pin, sync::Arc};
+
+use bytes::Bytes;
+use frontalis_proto::v1::{self, actor_service_server::ActorService};
+use futures::{Stream, StreamExt as _, stream};
+use tokio::sync::Semaphore;
+use tonic::{Code, Request, Response, Status, Streaming};
+
+use super::{refusal, status::refuse};
+use crate::{
+    catalogue::Store,
+    clock::ServerClock,
+    executor::Workers,
+    name::ActorId,
+    wire::{self, invalid::FieldError, page::Page},
+};
+
+/// Largest chunk of a package, in either direction.
+pub const MAX_CHUNK_BYTES: usize = 1 << 20;
+
+type Responses<T> = Pin<Box<dyn Stream<Item = Result<T, Status>> + Send>>;
+
+/// The service; cheap to clone.
+#[derive(Clone)]
+pub struct ActorsGrpc {
+    store: Store,
+    clock: ServerClock,
+    workers: Workers,
+    max_package_bytes: usize,
+    /// One permit an import, held from its first message to its answer: each may hold a whole package.
+    imports: Arc<Semaphore>,
+    max_imports: usize,
+}
+
+impl ActorsGrpc {
+    /// Imports run on `workers`, at most `max_imports` at once, each at most `max_package_bytes` long.
+    pub fn new(
+        store: Store,
+        clock: ServerClock,
+        workers: Workers,
+        max_package_bytes: usize,
+        max_imports: usize,
+    ) -> Self {
+        Self {
+            store,
+            clock,
+            workers,
+            max_package_bytes,
+            imports: Arc::new(Semaphore::new(max_imports)),
+            max_imports,
+        }
+    }
+
+    fn unix_now_nanos(&self) -> i64 {
+        self.clock
+            .now_nanos()
+            .saturating_add(self.clock.unix_offset_nanos())
+    }
+}
+
+fn id(name: &str) -> Result<ActorId, Status> {
+    Ok(ActorId::from_resource(name).map_err(FieldError::name("name"))?)
+}
+
+#[tonic::async_trait]
+impl ActorService for ActorsGrpc {
+    async fn import_actor(
+        &self,
+        request: Request<Streaming<v1::ImportActorRequest>>,
+    ) -> Result<Response<v1::ImportActorResponse>, Status> {
+        let imports = Arc::clone(&self.imports);
+        let permit = imports
+            .try_acquire_owned()
+            .map_err(|_| refusal::limit("IMPORTS", "limits.imports", self.max_imports))?;
+        let imported = self.import(request.into_inner()).await;
+        drop(permit);
+        imported.map(Response::new)
+    }
+
+    type ExportActorStream = Responses<v1::ExportActorResponse>;
+
+    async fn export_actor(
+        &self,
+        request: Request<v1::ExportActorRequest>,
+    ) -> Result<Response<Self::ExportActorStream>, Status> {
+        let request = request.into_inner();
+        let id = id(&request.name)?;
+        let revision = match request.revision {
+            0 => self.store.actor(&id).await?.revision,
+            revision => revision,
+        };
+        let package = Bytes::from(self.store.package(&id, revision).await?);
+        let starts = (0..package.len()).step_by(MAX_CHUNK_BYTES);
+        let chunks = stream::iter(starts).map(move |start| {
+            let end = package.len().min(start + MAX_CHUNK_BYTES);
+            let chunk = package.slice(start..end).to_vec();
+            Ok(v1::ExportActorResponse { chunk })
+        });
+        Ok(Response::new(chunks.boxed()))
+    }
+
+    async fn get_actor(
+        &self,
+        request: Request<v1::GetActorRequest>,
+    ) -> Result<Response<v1::GetActorResponse>, Status> {
+        let id = id(&request.into_inner().name)?;
+        let newest = self.store.actor(&id).await?;
+        let actor = Some(wire::actor::actor(&newest));
+        Ok(Response::new(v1::GetActorResponse { actor }))
+    }
+
+    async fn list_actors(
+        &self,
+        request: Request<v1::ListActorsRequest>,
+    ) -> Result<Response<v1::ListActorsResponse>, Status> {
+        let request = request.into_inner();
+        let page = Page::parse(request.page_size, &request.page_token)?;
+        let mut found = self
+            .store
+            .actors(page.after.clone(), page.n_to_read())
+            .await?;
+        let next_page_token = page.cut(&mut found, |it| it.actor.to_string());
+        Ok(Response::new(v1::ListActorsResponse {
+            actors: found.iter().map(wire::actor::actor).collect(),
+            next_page_token,
+        }))
+    }
+
+    async fn delete_actor(
+        &self,
+        request: Request<v1::DeleteActorRequest>,
+    ) -> Result<Response<v1::DeleteActorResponse>, Status> {
+        let request = request.into_inner();
+        let id = id(&request.name)?;
+        self.store.delete_actor(&id, request.with_takes).await?;
+        tracing::info!(actor = %id, "actor erased");
+        Ok(Response::new(v1::DeleteActorResponse {}))
+    }
+
+    type ImproveBasisStream = Responses<v1::ImproveBasisResponse>;
+
+    async fn improve_basis(
+        &self,
+        _request: Request<v1::ImproveBasisRequest>,
+    ) -> Result<Response<Self::ImproveBasisStream>, Status> {
+        Err(not_built("ImproveBasis"))
+    }
+
+    type TrainRegionsStream = Responses<v1::TrainRegionsResponse>;
+
+    async fn train_regions(
+        &self,
+        _request: Request<v1::TrainRegionsRequest>,
+    ) -> Result<Response<Self::TrainRegionsStream>, Status> {
+        Err(not_built("TrainRegions"))
+    }
+}
+
+/// An RPC that later versions fill.
+pub(super) fn not_built(what: &str) -> Status {
+    let message = format!("this server cannot do {what} yet");
+    refuse(Code::Unimplemented, "NOT_IMPLEMENTED", message)
+}

@@ -1,0 +1,95 @@
+//! Health, metrics, and what there is to see.
+
+use axum::{
+    extract::State,
+    http::{StatusCode, header},
+    response::{IntoResponse, Response},
+};
+
+use super::{Doors, problem::Problem};
+use crate::{
+    hub::SessionState,
+    session::SessionStatus,
+    telemetry::{Protocol, SessionFigures},
+    wire::session::state_name,
+};
+
+const INDEX: &str = "\
+Frontalis: facial motion capture in, muscle curves out.
+
+gRPC on this port: frontalis.v1, with reflection and health.
+
+GET /api/v1/actors?page_size=N&page_token=TOKEN
+GET /api/v1/sessions?page_size=N&page_token=TOKEN
+GET /api/v1/sessions/ID
+GET /api/v1/sessions/ID/curves?run=RUN&after=SEQUENCE&limit=N
+GET /healthz
+GET /readyz
+GET /metrics
+";
+
+const STATES: [SessionState; 6] = [
+    SessionState::Waiting,
+    SessionState::Aligning,
+    SessionState::Live,
+    SessionState::Stale,
+    SessionState::Ended,
+    SessionState::Failed,
+];
+
+pub(super) async fn index() -> &'static str {
+    INDEX
+}
+
+/// Live: the runtime answers.
+pub(super) async fn healthz() -> &'static str {
+    "ok\n"
+}
+
+/// Ready: new sessions are accepted.
+pub(super) async fn readyz(State(doors): State<Doors>) -> Response {
+    if doors.phases.is_draining() {
+        let detail = "the server is shutting down";
+        return Problem::new(StatusCode::SERVICE_UNAVAILABLE, "DRAINING", detail).into_response();
+    }
+    "ready\n".into_response()
+}
+
+pub(super) async fn metrics(State(doors): State<Doors>) -> impl IntoResponse {
+    doors.metrics.request(Protocol::Http);
+    let all: Vec<SessionStatus> = doors
+        .sessions
+        .handles()
+        .iter()
+        .map(|it| it.status())
+        .collect();
+    doors.metrics.set_ready(!doors.phases.is_draining());
+    doors.metrics.set_sessions(&figures(&all));
+    let kind = "application/openmetrics-text; version=1.0.0; charset=utf-8";
+    ([(header::CONTENT_TYPE, kind)], doors.metrics.to_text())
+}
+
+fn figures(all: &[SessionStatus]) -> SessionFigures {
+    let in_state = |state| all.iter().filter(|it| it.state == state).count() as u64;
+    let sum = |figure: fn(&SessionStatus) -> u64| all.iter().map(figure).sum::<u64>();
+    let subscribers = || all.iter().flat_map(|it| &it.subscribers);
+    SessionFigures {
+        states: STATES
+            .iter()
+            .map(|&it| (state_name(it), in_state(it)))
+            .collect(),
+        frames: vec![
+            ("received", sum(|it| it.frames_received)),
+            ("rejected", sum(|it| it.frames_rejected)),
+            ("late", sum(|it| it.frames_late)),
+            ("duplicate", sum(|it| it.frames_duplicate)),
+            ("shed", sum(|it| it.frames_shed)),
+            ("missing", sum(|it| it.frames_missing)),
+        ],
+        subscribers: subscribers().count() as u64,
+        samples: vec![
+            ("sent", subscribers().map(|it| it.sent_samples).sum()),
+            ("skipped", subscribers().map(|it| it.skipped_samples).sum()),
+        ],
+    }
+}

@@ -1,0 +1,86 @@
+//! A field of a request that cannot be used: which, and why.
+
+use crate::name::NameError;
+
+/// A refused field.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{field}: {problem}")]
+pub struct FieldError {
+    field: &'static str,
+    problem: FieldProblem,
+}
+
+/// What is wrong with a field. The client's text is never repeated.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum FieldProblem {
+    /// Not a name.
+    #[error("{0}")]
+    Name(NameError),
+    /// An enum value that this server does not know.
+    #[error("{0} is not a value of this enum")]
+    UnknownEnum(i32),
+    /// Must be given.
+    #[error("must be given")]
+    Missing,
+    /// A number out of its range, or not a number.
+    #[error("{found} is not within {expected}")]
+    Range {
+        /// The number.
+        found: f64,
+        /// The range, as a person reads it.
+        expected: &'static str,
+    },
+    /// A duration out of its range.
+    #[error("the duration is not within {expected}")]
+    Duration {
+        /// The range, as a person reads it.
+        expected: &'static str,
+    },
+    /// Known, but not built yet.
+    #[error("this server cannot do that yet")]
+    NotImplemented,
+    /// A path of the field mask that names no field.
+    #[error("path {index} names no field of the settings")]
+    UnknownPath {
+        /// Its place in the mask, from 0.
+        index: usize,
+    },
+    /// A page token that this server did not make.
+    #[error("is not a token that this server made")]
+    PageToken,
+}
+
+impl FieldError {
+    /// A refused field.
+    pub fn new(field: &'static str, problem: FieldProblem) -> Self {
+        Self { field, problem }
+    }
+
+    /// Names the field of a refused name.
+    pub fn name(field: &'static str) -> impl FnOnce(NameError) -> Self {
+        move |error| Self::new(field, FieldProblem::Name(error))
+    }
+
+    /// The field's name in the request.
+    pub fn field(&self) -> &'static str {
+        self.field
+    }
+
+    /// What is wrong with it.
+    pub fn problem(&self) -> &FieldProblem {
+        &self.problem
+    }
+
+    /// The identifier on the wire.
+    pub fn reason(&self) -> &'static str {
+        match self.problem {
+            FieldProblem::Name(_) => "NAME",
+            FieldProblem::UnknownEnum(_) => "ENUM",
+            FieldProblem::Missing => "MISSING_FIELD",
+            FieldProblem::Range { .. } | FieldProblem::Duration { .. } => "SOLVER_OPTIONS",
+            FieldProblem::NotImplemented => "NOT_IMPLEMENTED",
+            FieldProblem::UnknownPath { .. } => "FIELD_MASK",
+            FieldProblem::PageToken => "PAGE_TOKEN",
+        }
+    }
+}
