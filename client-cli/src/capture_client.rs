@@ -64,7 +64,31 @@ impl CaptureSettings {
     }
 }
 
-/// A running publication. Dropping it cuts the stream; [`finish`](Self::finish) ends it properly.
+/// A running publication.
+///
+/// ```no_run
+/// # async fn example() -> Result<(), frontalis_client::error::ClientError> {
+/// use frontalis_client::{capture_client::{CaptureClient, CaptureSettings}, connection, proto};
+///
+/// let settings = CaptureSettings {
+///     session: "sessions/take-1".to_owned(),
+///     publisher: "rig-1".to_owned(),
+///     marker_names: vec!["chin".to_owned()],
+///     unit: proto::LengthUnit::Millimeter,
+///     rate_hz: 120.0,
+///     ingest: proto::Ingest::Live,
+///     takeover: false,
+/// };
+/// let channel = connection::connect("http://127.0.0.1:7400").await?;
+/// let client = CaptureClient::start(channel, settings).await?;
+/// client.send(proto::MarkerFrame { number: 1, positions: vec![0.0; 3], ..Default::default() }).await?;
+/// let published = client.finish().await;
+/// println!("{} frames accepted", published.report.accepted_frames);
+/// # Ok(())
+/// # }
+/// ```
+///
+/// Dropping it cuts the stream; [`finish`](Self::finish) ends it properly.
 #[derive(Debug)]
 pub struct CaptureClient {
     shared: Arc<Shared>,

@@ -31,13 +31,13 @@ pub enum Wanted {
     /// All of them, in order.
     EveryFrame {
         /// Where to begin.
-        from: From,
+        from: StartAt,
     },
 }
 
 /// Where a subscription to every frame begins.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum From {
+pub enum StartAt {
     /// At the newest sample.
     Now,
     /// At the oldest sample that the server keeps.
@@ -126,6 +126,26 @@ pub enum CurveEvent {
 }
 
 /// A running subscription. Dropping it ends it.
+///
+/// ```no_run
+/// # async fn example() -> Result<(), frontalis_client::error::ClientError> {
+/// use frontalis_client::{
+///     connection,
+///     curve_client::{CurveClient, CurveEvent, CurveSettings, StartAt, Wanted},
+/// };
+///
+/// let channel = connection::connect("http://127.0.0.1:7400").await?;
+/// let wanted = Wanted::EveryFrame { from: StartAt::Oldest };
+/// let settings = CurveSettings::new("sessions/take-1", wanted);
+/// let mut curves = CurveClient::subscribe(channel, settings).await?;
+/// while let Some(event) = curves.next().await? {
+///     if let CurveEvent::Sample(sample) = event {
+///         println!("{}: {:?}", sample.frame, sample.activations);
+///     }
+/// }
+/// # Ok(())
+/// # }
+/// ```
 pub struct CurveClient {
     events: BoxStream<'static, Result<CurveEvent, ClientError>>,
 }

@@ -119,7 +119,9 @@ impl From<tonic::Status> for ClientError {
 
 impl From<tonic::transport::Error> for ClientError {
     fn from(error: tonic::transport::Error) -> Self {
-        Self::local(Code::Unavailable, chain(&error))
+        let text = chain(&error);
+        let text = text.strip_prefix("transport error: ").unwrap_or(&text);
+        Self::local(Code::Unavailable, text)
     }
 }
 

@@ -111,7 +111,7 @@ impl FakeServer {
         ))
     }
 
-    /// Takes one frame; `None` when the script breaks the stream now.
+    /// Takes one frame; false when the script breaks the stream now.
     fn take_frame(&self, capture: &Capture, number: u64, response: &mut PublishResponse) -> bool {
         let mut record = self.record();
         record.arrived.last_mut().unwrap().push(number);
@@ -130,18 +130,14 @@ impl FakeServer {
             record.next_expected = number + 1;
             record.effective.push(number);
         }
-        match capture {
-            Capture::Break { taken, acked, .. } => {
-                if n_arrived <= *acked {
-                    response.accepted_through = number;
-                }
-                n_arrived < *taken
-            }
-            _ => {
-                response.accepted_through = number;
-                true
-            }
+        let (taken, acked) = match capture {
+            Capture::Break { taken, acked, .. } => (*taken, *acked),
+            _ => (usize::MAX, usize::MAX),
+        };
+        if n_arrived <= acked {
+            response.accepted_through = number;
         }
+        n_arrived < taken
     }
 }
 
@@ -190,9 +186,10 @@ impl CaptureService for FakeServer {
                 for frame in message.frames {
                     goes_on = goes_on && server.take_frame(&capture, frame.number, &mut response);
                 }
-                let _ = responses.send(Ok(response)).await.is_ok();
+                // A client that left is not the script's concern.
+                drop(responses.send(Ok(response)).await);
                 if !goes_on && let Capture::Break { status, .. } = capture {
-                    let _ = responses.send(Err(status)).await.is_ok();
+                    drop(responses.send(Err(status)).await);
                     return;
                 }
             }

@@ -8,6 +8,8 @@
 //! | [`error`] | what a server refused, its reason, and what to do about it |
 //! | [`backoff`] | how long to wait before trying again |
 //! | [`simulated_stage`] | an actor, cameras and a performance, for a stage without a studio |
+//! | [`take_file`] | a TRC file as frames to publish or to solve |
+//! | [`solve`] | the same analysis without a server |
 //! | [`csv`] | curves as a table, the same bytes from a server and from a file |
 
 pub mod backoff;
@@ -19,6 +21,8 @@ pub mod error;
 #[cfg(test)]
 mod fake_server;
 pub mod simulated_stage;
+pub mod solve;
+pub mod take_file;
 
 /// The wire types that the clients speak.
 pub use frontalis_proto::v1 as proto;

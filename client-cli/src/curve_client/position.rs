@@ -3,7 +3,7 @@
 //! Completeness is proved from `sequence` alone (CONTRACTS D-2): it grows by exactly one inside a run.
 //! Pure: knows no network and no clock.
 
-use super::{CurveEvent, From};
+use super::{CurveEvent, StartAt};
 use crate::proto::{CurveSample, Gap};
 
 /// The run and the last sample of a subscription to every frame.
@@ -35,15 +35,15 @@ impl Position {
 
     /// Where to subscribe again. Without a sample so far there was none when the subscription began, so that the
     /// oldest is the next.
-    pub fn resume(&self, asked_for: From) -> From {
+    pub fn resume(&self, asked_for: StartAt) -> StartAt {
         match (self.run, self.last_sequence) {
             (0, _) => asked_for,
-            _ if self.place_is_gone => From::Oldest,
+            _ if self.place_is_gone => StartAt::Oldest,
             (_, 0) => match asked_for {
-                From::Sequence { .. } => asked_for,
-                From::Now | From::Oldest => From::Oldest,
+                StartAt::Sequence { .. } => asked_for,
+                StartAt::Now | StartAt::Oldest => StartAt::Oldest,
             },
-            (run, last) => From::Sequence {
+            (run, last) => StartAt::Sequence {
                 run,
                 sequence: last + 1,
             },
@@ -105,15 +105,15 @@ mod tests {
     #[test]
     fn goes_on_after_the_last_sample_of_its_run() {
         let mut position = Position::default();
-        assert_eq!(position.resume(From::Now), From::Now);
+        assert_eq!(position.resume(StartAt::Now), StartAt::Now);
         assert_eq!(position.enter_run(3), None);
-        assert_eq!(position.resume(From::Now), From::Oldest);
+        assert_eq!(position.resume(StartAt::Now), StartAt::Oldest);
         position.sample(sample(41));
-        let expected = From::Sequence {
+        let expected = StartAt::Sequence {
             run: 3,
             sequence: 42,
         };
-        assert_eq!(position.resume(From::Now), expected);
+        assert_eq!(position.resume(StartAt::Now), expected);
     }
 
     #[test]
@@ -136,14 +136,14 @@ mod tests {
         position.enter_run(1);
         position.sample(sample(5));
         position.lose_place();
-        assert_eq!(position.resume(From::Now), From::Oldest);
+        assert_eq!(position.resume(StartAt::Now), StartAt::Oldest);
         assert_eq!(position.sample(sample(4)), []);
         assert_eq!(position.sample(sample(20)).len(), 2);
-        let expected = From::Sequence {
+        let expected = StartAt::Sequence {
             run: 1,
             sequence: 21,
         };
-        assert_eq!(position.resume(From::Now), expected);
+        assert_eq!(position.resume(StartAt::Now), expected);
     }
 
     #[test]

@@ -10,7 +10,7 @@ use tokio::{
 use tokio_stream::wrappers::ReceiverStream;
 use tonic::{Code, Streaming, transport::Channel};
 
-use super::{CurveEvent, CurveSettings, From, Wanted, position::Position};
+use super::{CurveEvent, CurveSettings, StartAt, Wanted, position::Position};
 use crate::{
     backoff::Backoff,
     error::ClientError,
@@ -181,9 +181,9 @@ impl Subscription {
             Wanted::EveryFrame { from } => {
                 start.set_delivery(Delivery::EveryFrame);
                 match self.position.resume(from) {
-                    From::Now => {}
-                    From::Oldest => start.from_oldest = true,
-                    From::Sequence { run, sequence } => {
+                    StartAt::Now => {}
+                    StartAt::Oldest => start.from_oldest = true,
+                    StartAt::Sequence { run, sequence } => {
                         start.run = run;
                         start.from_sequence = sequence;
                     }

@@ -49,7 +49,9 @@ fn cut() -> Status {
 /// Every event of an every-frame subscription that the script ends.
 async fn follow(script: Vec<Curves>) -> (FakeServer, Vec<CurveEvent>) {
     let server = FakeServer::with_curves(script);
-    let wanted = Wanted::EveryFrame { from: From::Oldest };
+    let wanted = Wanted::EveryFrame {
+        from: StartAt::Oldest,
+    };
     let settings = CurveSettings::new("sessions/take-1", wanted);
     let mut client = CurveClient::subscribe(server.channel(), settings)
         .await
@@ -150,7 +152,7 @@ async fn d14_a_credit_goes_back_when_the_next_sample_is_asked_for() {
 async fn a_refusal_is_told_at_once() {
     let missing = refusal_for_tests(Code::NotFound, "SESSION");
     let server = FakeServer::with_curves([curves(vec![], Some(missing))]);
-    let wanted = Wanted::EveryFrame { from: From::Now };
+    let wanted = Wanted::EveryFrame { from: StartAt::Now };
     let settings = CurveSettings::new("sessions/none", wanted);
     let error = CurveClient::subscribe(server.channel(), settings)
         .await

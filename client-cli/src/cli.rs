@@ -1,0 +1,119 @@
+//! What can be typed after `frontalis`.
+
+use clap::{Parser, Subcommand};
+use frontalis_client::connection::DEFAULT_SERVER;
+
+use crate::commands::{
+    actor::ActorCommand, completions::CompletionsArgs, demo::DemoArgs, publish::PublishArgs,
+    session::SessionCommand, simulate::SimulateArgs, solve::SolveArgs, watch::WatchArgs,
+};
+
+/// Facial motion capture over the network: markers in, muscle curves out.
+#[derive(Debug, Parser)]
+#[command(name = "frontalis", version, after_help = EXAMPLES, max_term_width = 110)]
+pub struct Cli {
+    /// Address of the server
+    #[arg(long, global = true, help_heading = "Everywhere", value_name = "URL", env = "FRONTALIS_SERVER", default_value = DEFAULT_SERVER)]
+    pub server: String,
+
+    /// Answer in JSON instead of tables and bars
+    #[arg(long, global = true, help_heading = "Everywhere")]
+    pub json: bool,
+
+    #[command(subcommand)]
+    pub command: Command,
+}
+
+const EXAMPLES: &str = "\
+Examples:
+  frontalis demo                                            everything at once, on this machine
+  frontalis actor import face.zip --id anna                 bring in an actor
+  frontalis session create --actor anna --id take-1         prepare a capture
+  frontalis publish take.trc --session take-1               send a recorded performance
+  frontalis watch take-1                                    see the curves live
+
+Exit status: 0 done, 1 failed, 2 not understood.";
+
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Import, list, show, export and delete actors
+    #[command(subcommand)]
+    Actor(ActorCommand),
+    /// Create, list, show, change, recenter and end sessions
+    #[command(subcommand)]
+    Session(SessionCommand),
+    /// Publish a TRC file into a session
+    Publish(PublishArgs),
+    /// Follow a session's curves: live bars, CSV or JSON
+    Watch(WatchArgs),
+    /// Solve a TRC file without a server, as a session would
+    Solve(SolveArgs),
+    /// Publish a simulated five-camera capture in real time
+    Simulate(SimulateArgs),
+    /// Start a server and a simulated capture, and show the curves
+    Demo(DemoArgs),
+    /// Print the completion script of a shell
+    Completions(CompletionsArgs),
+}
+
+#[cfg(test)]
+mod tests {
+    use clap::CommandFactory as _;
+
+    use super::*;
+
+    fn parse(line: &str) -> Result<Cli, clap::Error> {
+        Cli::try_parse_from(line.split_whitespace())
+    }
+
+    #[test]
+    fn the_commands_are_consistent() {
+        Cli::command().debug_assert();
+    }
+
+    #[test]
+    fn the_lines_of_the_manual_are_understood() {
+        for line in [
+            "frontalis actor import face.zip --id anna --regularize --display-name Anna",
+            "frontalis actor list --json",
+            "frontalis actor show anna",
+            "frontalis actor export anna out.glb",
+            "frontalis actor delete anna --yes",
+            "frontalis actor reference out.glb",
+            "frontalis session create --actor anna --id take-1 --neutral-frames 1 --exaggeration --fixed-head --regions split",
+            "frontalis session create --actor anna --align-on-request --stale-after-millis 200 --publisher-timeout-secs 5",
+            "frontalis session update take-1 --exaggeration=false --actor-revision 2",
+            "frontalis session recenter take-1",
+            "frontalis session end take-1",
+            "frontalis --server http://10.0.0.5:7400 publish take.trc --session take-1 --fast",
+            "frontalis watch take-1",
+            "frontalis watch take-1 --every-frame --from-start --until-end --csv",
+            "frontalis watch take-1 --every-frame --frames 100 --json",
+            "frontalis solve take.trc --actor face.zip --regions split --csv",
+            "frontalis simulate --actor reference --session take-1 --rate 60 --seconds 10 --cameras 5 --pixel-noise 0.3 --misses 0.03 --seed 7 --truth truth.csv",
+            "frontalis demo --seconds 10",
+            "frontalis completions bash",
+        ] {
+            if let Err(error) = parse(line) {
+                panic!("{line}: {error}");
+            }
+        }
+    }
+
+    #[test]
+    fn figures_outside_their_range_are_usage_errors() {
+        for line in [
+            "frontalis session create --actor anna --neutral-frames 0",
+            "frontalis session create --actor anna --neutral-frames 257",
+            "frontalis simulate --session s --rate 0",
+            "frontalis simulate --session s --rate nan",
+            "frontalis simulate --session s --misses 1.5",
+            "frontalis simulate --session s --cameras 1",
+            "frontalis watch take-1 --from-start",
+            "frontalis watch take-1 --csv",
+        ] {
+            let error = parse(line).expect_err(line);
+            assert_eq!(error.exit_code(), 2, "{line}");
+        }
+    }
+}

@@ -1,0 +1,234 @@
+//! `frontalis actor …`: bring actors in and out.
+
+mod package;
+
+use std::{fs, path::PathBuf, process::ExitCode};
+
+use anyhow::Context as _;
+use clap::{Args, Subcommand};
+use frontalis_analysis::synthesis::reference_face;
+use frontalis_client::{error::ClientError, proto};
+use proto::actor_service_client::ActorServiceClient;
+use tonic::transport::Channel;
+
+pub use self::package::{PackageForm, fetch, import, read as read_package};
+use super::{Context, actor_name, short_id};
+use crate::{
+    json,
+    terminal::{self, say, tables},
+};
+
+/// Actors listed by one call.
+const PAGE_SIZE: u32 = 200;
+
+#[derive(Debug, Subcommand)]
+pub enum ActorCommand {
+    /// Bring in an actor package: a ZIP of actor.json and OBJ files, or a GLB
+    Import(ImportArgs),
+    /// List the actors of the server
+    List,
+    /// Show one actor: muscles, markers, what can be said of the basis
+    Show(ShowArgs),
+    /// Write an actor to a .zip or .glb file, whichever form it came in
+    Export(ExportArgs),
+    /// Erase an actor and its revisions
+    Delete(DeleteArgs),
+    /// Write the built-in reference actor to a .zip or .glb file; needs no server
+    Reference(ReferenceArgs),
+}
+
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Importing under an id that exists adds a revision when muscles and markers are the same.
+
+Example:
+  frontalis actor import anna.zip --id anna --display-name \"Anna K.\""
+)]
+pub struct ImportArgs {
+    /// The package, .zip or .glb
+    package: PathBuf,
+    /// Id of the actor: 1 to 63 of a-z, 0-9, - and _
+    #[arg(long)]
+    id: String,
+    /// Name for people [default: the package's own]
+    #[arg(long, value_name = "NAME")]
+    display_name: Option<String>,
+    /// Accept a basis whose muscles the markers cannot tell apart, and report it
+    #[arg(long)]
+    regularize: bool,
+}
+
+#[derive(Debug, Args)]
+pub struct ShowArgs {
+    /// The actor
+    id: String,
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = "Example:
+  frontalis actor export anna anna.glb --revision 2")]
+pub struct ExportArgs {
+    /// The actor
+    id: String,
+    /// File to write; its extension, .zip or .glb, chooses the form
+    out: PathBuf,
+    /// Revision to export [default: the newest]
+    #[arg(long, value_name = "N", default_value_t = 0, hide_default_value = true)]
+    revision: u32,
+}
+
+#[derive(Debug, Args)]
+pub struct DeleteArgs {
+    /// The actor
+    id: String,
+    /// Do not ask
+    #[arg(long, short)]
+    yes: bool,
+    /// Erase its takes too
+    #[arg(long)]
+    with_takes: bool,
+}
+
+#[derive(Debug, Args)]
+pub struct ReferenceArgs {
+    /// File to write, .zip or .glb
+    out: PathBuf,
+}
+
+pub async fn run(context: &Context, command: ActorCommand) -> anyhow::Result<ExitCode> {
+    match command {
+        ActorCommand::Import(args) => import_file(context, args).await?,
+        ActorCommand::List => list(context).await?,
+        ActorCommand::Show(args) => show(context, &args).await?,
+        ActorCommand::Export(args) => export(context, &args).await?,
+        ActorCommand::Delete(args) => return delete(context, &args).await,
+        ActorCommand::Reference(args) => reference(context, &args)?,
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+async fn import_file(context: &Context, args: ImportArgs) -> anyhow::Result<()> {
+    let bytes = fs::read(&args.package)
+        .with_context(|| format!("cannot read the package {}", args.package.display()))?;
+    let start = proto::ImportActorStart {
+        actor_id: args.id,
+        display_name: args.display_name.unwrap_or_default(),
+        unit: proto::LengthUnit::Unspecified.into(),
+        regularize: args.regularize,
+    };
+    let imported = import(context.connect().await?, start, bytes)
+        .await
+        .with_context(|| format!("the package {} was not imported", args.package.display()))?;
+    let actor = imported.actor.unwrap_or_default();
+    if context.json {
+        let mut value = json::actor(&actor);
+        value["warnings"] = serde_json::json!(imported.warnings);
+        say(value)?;
+        return Ok(());
+    }
+    for warning in &imported.warnings {
+        eprintln!("warning: {warning}");
+    }
+    say(format_args!(
+        "imported {} revision {}: {} muscles, {} markers, {} vertices",
+        short_id(&actor.name),
+        actor.revision,
+        actor.muscles.len(),
+        actor.markers.len(),
+        actor.n_vertices
+    ))?;
+    Ok(())
+}
+
+async fn list(context: &Context) -> anyhow::Result<()> {
+    let mut client = ActorServiceClient::new(context.connect().await?);
+    let mut actors = Vec::new();
+    let mut page_token = String::new();
+    loop {
+        let request = proto::ListActorsRequest {
+            page_size: PAGE_SIZE,
+            page_token,
+        };
+        let page = client
+            .list_actors(request)
+            .await
+            .map_err(ClientError::from)?
+            .into_inner();
+        actors.extend(page.actors);
+        page_token = page.next_page_token;
+        if page_token.is_empty() {
+            break;
+        }
+    }
+    if context.json {
+        let actors: Vec<_> = actors.iter().map(json::actor).collect();
+        say(serde_json::json!({ "actors": actors }))?;
+    } else {
+        say(tables::actors(&actors))?;
+    }
+    Ok(())
+}
+
+/// One actor, as the server knows it.
+pub async fn get(channel: Channel, id: &str) -> Result<proto::Actor, ClientError> {
+    let request = proto::GetActorRequest {
+        name: actor_name(id),
+    };
+    let response = ActorServiceClient::new(channel).get_actor(request).await?;
+    Ok(response.into_inner().actor.unwrap_or_default())
+}
+
+async fn show(context: &Context, args: &ShowArgs) -> anyhow::Result<()> {
+    let actor = get(context.connect().await?, &args.id).await?;
+    if context.json {
+        say(json::actor(&actor))?;
+    } else {
+        say(tables::actor(&actor))?;
+    }
+    Ok(())
+}
+
+async fn export(context: &Context, args: &ExportArgs) -> anyhow::Result<()> {
+    let form = PackageForm::of_file(&args.out)?;
+    let bytes = fetch(context.connect().await?, &args.id, args.revision).await?;
+    let bytes = form.convert(bytes)?;
+    fs::write(&args.out, &bytes).with_context(|| format!("cannot write {}", args.out.display()))?;
+    written(context, &args.out, bytes.len())
+}
+
+fn reference(context: &Context, args: &ReferenceArgs) -> anyhow::Result<()> {
+    let bytes = PackageForm::of_file(&args.out)?.write(&reference_face::actor());
+    fs::write(&args.out, &bytes).with_context(|| format!("cannot write {}", args.out.display()))?;
+    written(context, &args.out, bytes.len())
+}
+
+fn written(context: &Context, out: &std::path::Path, n_bytes: usize) -> anyhow::Result<()> {
+    if context.json {
+        say(serde_json::json!({ "file": out.display().to_string(), "bytes": n_bytes }))?;
+    } else {
+        say(format_args!("wrote {} ({n_bytes} bytes)", out.display()))?;
+    }
+    Ok(())
+}
+
+async fn delete(context: &Context, args: &DeleteArgs) -> anyhow::Result<ExitCode> {
+    let question = format!("Erase the actor {} with all its revisions?", args.id);
+    if !args.yes && terminal::is_interactive() && !terminal::confirm(&question)? {
+        eprintln!("nothing was erased");
+        return Ok(ExitCode::FAILURE);
+    }
+    let request = proto::DeleteActorRequest {
+        name: actor_name(&args.id),
+        with_takes: args.with_takes,
+    };
+    ActorServiceClient::new(context.connect().await?)
+        .delete_actor(request)
+        .await
+        .map_err(ClientError::from)?;
+    if context.json {
+        say(serde_json::json!({ "deleted": actor_name(&args.id) }))?;
+    } else {
+        say(format_args!("erased {}", args.id))?;
+    }
+    Ok(ExitCode::SUCCESS)
+}

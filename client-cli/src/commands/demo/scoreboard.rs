@@ -1,0 +1,171 @@
+//! What was published and what came back: counts, latency, error against the truth.
+
+use std::{
+    collections::VecDeque,
+    sync::{Mutex, MutexGuard, PoisonError},
+};
+
+use frontalis_client::{
+    capture_client::report::PublishReport, curve_client::CurveEvent, simulated_stage::StageFrame,
+};
+use serde_json::json;
+use tokio::time::Instant;
+
+use crate::{
+    commands::{Context, stage_run::StageRun},
+    measure::{Latencies, RootMeanSquare},
+    terminal::say,
+};
+
+/// Frames waiting for their sample; older ones became gaps.
+const MAX_WAITING: usize = 4_096;
+
+/// Shared by the stage and the subscriber; the lock is never held across a wait.
+#[derive(Debug, Default)]
+pub struct Scoreboard {
+    board: Mutex<Board>,
+}
+
+#[derive(Debug, Default)]
+struct Board {
+    waiting: VecDeque<Waiting>,
+    received: u64,
+    first_received: Option<Instant>,
+    last_received: Option<Instant>,
+    latencies: Latencies,
+    error: RootMeanSquare,
+}
+
+#[derive(Debug)]
+struct Waiting {
+    number: u64,
+    published: Instant,
+    truth: Vec<f64>,
+}
+
+impl Scoreboard {
+    fn lock(&self) -> MutexGuard<'_, Board> {
+        self.board.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// A frame goes out now.
+    pub fn published(&self, frame: &StageFrame) {
+        let mut board = self.lock();
+        if board.waiting.len() == MAX_WAITING {
+            board.waiting.pop_front();
+        }
+        board.waiting.push_back(Waiting {
+            number: frame.number,
+            published: Instant::now(),
+            truth: frame.truth.clone(),
+        });
+    }
+
+    /// An event arrived now; samples are matched to their frames by number.
+    pub fn take(&self, event: &CurveEvent) {
+        let CurveEvent::Sample(sample) = event else {
+            return;
+        };
+        let now = Instant::now();
+        let mut board = self.lock();
+        board.received += 1;
+        board.first_received.get_or_insert(now);
+        board.last_received = Some(now);
+        while board
+            .waiting
+            .front()
+            .is_some_and(|it| it.number < sample.frame)
+        {
+            board.waiting.pop_front();
+        }
+        if board
+            .waiting
+            .front()
+            .is_some_and(|it| it.number == sample.frame)
+            && let Some(frame) = board.waiting.pop_front()
+        {
+            board.latencies.add(now - frame.published);
+            board.error.add(&sample.activations, &frame.truth);
+        }
+    }
+
+    /// Samples so far.
+    pub fn received(&self) -> u64 {
+        self.lock().received
+    }
+
+    /// The figures of the whole run.
+    pub fn summary(&self, run: &StageRun, report: &PublishReport) -> Summary {
+        let board = self.lock();
+        let span = match (board.first_received, board.last_received) {
+            (Some(first), Some(last)) => (last - first).as_secs_f64(),
+            _ => 0.0,
+        };
+        Summary {
+            published_frames: run.frames,
+            accepted_frames: report.accepted_frames,
+            received_samples: board.received,
+            published_rate_hz: run.achieved_rate_hz(),
+            received_rate_hz: board.received.saturating_sub(1) as f64 / span.max(1e-9),
+            rms_error: board.error.value(),
+            latency_p50_micros: board.latencies.quantile_micros(0.5),
+            latency_p99_micros: board.latencies.quantile_micros(0.99),
+        }
+    }
+}
+
+/// The figures of a demo.
+#[derive(Clone, Copy, Debug)]
+pub struct Summary {
+    published_frames: u64,
+    accepted_frames: u64,
+    received_samples: u64,
+    published_rate_hz: f64,
+    received_rate_hz: f64,
+    rms_error: Option<f64>,
+    latency_p50_micros: Option<f64>,
+    latency_p99_micros: Option<f64>,
+}
+
+impl Summary {
+    pub fn print(&self, context: &Context) -> anyhow::Result<()> {
+        if context.json {
+            say(json!({
+                "published_frames": self.published_frames,
+                "accepted_frames": self.accepted_frames,
+                "received_samples": self.received_samples,
+                "published_rate_hz": self.published_rate_hz,
+                "received_rate_hz": self.received_rate_hz,
+                "rms_error": self.rms_error,
+                "latency_p50_micros": self.latency_p50_micros,
+                "latency_p99_micros": self.latency_p99_micros,
+            }))?;
+            return Ok(());
+        }
+        let millis = |it: Option<f64>| {
+            it.map_or_else(|| "-".to_owned(), |it| format!("{:.2} ms", it * 1e-3))
+        };
+        let rms_error = self
+            .rms_error
+            .map_or_else(|| "-".to_owned(), |it| format!("{it:.4}"));
+        say(format_args!(
+            "frames published      {}",
+            self.published_frames
+        ))?;
+        say(format_args!(
+            "samples received      {}",
+            self.received_samples
+        ))?;
+        say(format_args!(
+            "measured rate         {:.2} frames/s out, {:.2} samples/s in",
+            self.published_rate_hz, self.received_rate_hz
+        ))?;
+        say(format_args!("RMS error of curves   {rms_error}"))?;
+        say(format_args!(
+            "publish to receipt    p50 {}, p99 {}",
+            millis(self.latency_p50_micros),
+            millis(self.latency_p99_micros)
+        ))?;
+        Ok(())
+    }
+}

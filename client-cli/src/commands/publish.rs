@@ -1,0 +1,123 @@
+//! `frontalis publish TAKE.trc --session ID`.
+
+use std::{
+    path::{Path, PathBuf},
+    process::ExitCode,
+    time::Duration,
+};
+
+use anyhow::Context as _;
+use clap::Args;
+use frontalis_analysis::format::trc::TrcTake;
+use frontalis_client::{
+    capture_client::{CaptureClient, CaptureSettings},
+    proto::Ingest,
+    take_file::{self, wire_frame, wire_unit},
+};
+use tokio::time::{Instant, sleep_until};
+
+use super::{
+    Context,
+    interrupt::Interrupt,
+    names::{default_publisher, session_name},
+    publish_summary,
+};
+use crate::terminal::progress;
+
+/// Publish a TRC file into a session
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Frames keep the file's numbers, times and unit. The publisher reconnects and resumes by itself.
+
+Examples:
+  frontalis publish take.trc --session take-1          in real time, by the file's rate
+  frontalis publish take.trc --session take-1 --fast   every frame, as fast as the server takes them"
+)]
+pub struct PublishArgs {
+    /// The file
+    take: PathBuf,
+    /// The session
+    #[arg(long, value_name = "ID")]
+    session: String,
+    /// Lossless, as fast as the server takes the frames, instead of in real time
+    #[arg(long)]
+    fast: bool,
+    /// Stable id of this capture client, 1 to 64 of A-Z, a-z, 0-9, . _ - [default: frontalis-HOST]
+    #[arg(long, value_name = "NAME")]
+    publisher: Option<String>,
+    /// Take the session from another publisher
+    #[arg(long)]
+    takeover: bool,
+    /// Number the frames on from the session's last one; the file's numbers travel as source frames
+    #[arg(long)]
+    renumber: bool,
+}
+
+pub async fn run(context: &Context, args: PublishArgs) -> anyhow::Result<ExitCode> {
+    let take = take_file::read(&args.take)?;
+    let settings = CaptureSettings {
+        session: session_name(&args.session),
+        publisher: args.publisher.clone().unwrap_or_else(default_publisher),
+        marker_names: take.marker_names.clone(),
+        unit: wire_unit(take.unit),
+        rate_hz: take.rate_hz,
+        ingest: if args.fast {
+            Ingest::Lossless
+        } else {
+            Ingest::Live
+        },
+        takeover: args.takeover,
+    };
+    let client = CaptureClient::start(context.connect().await?, settings)
+        .await
+        .with_context(|| format!("the session {} was not opened for publishing", args.session))?;
+    let begun = Instant::now();
+    send(&client, &take, &args).await?;
+    let published = client.finish().await;
+    publish_summary::print(
+        context,
+        &args.session,
+        &published,
+        begun.elapsed(),
+        &told_name(&args.take),
+    )
+}
+
+fn told_name(path: &Path) -> String {
+    path.file_name().map_or_else(
+        || path.display().to_string(),
+        |it| it.to_string_lossy().into_owned(),
+    )
+}
+
+/// Hands every frame over, at its time or at once; stops early on Ctrl-C or when the publication failed.
+async fn send(client: &CaptureClient, take: &TrcTake, args: &PublishArgs) -> anyhow::Result<()> {
+    let mut interrupt = Interrupt::listen()?;
+    let first_number = args.renumber.then(|| client.started().next_expected.max(1));
+    let bar = progress::frames(take.frames.len() as u64, "publishing");
+    let begun = Instant::now();
+    for (index, frame) in take.frames.iter().enumerate() {
+        let mut message = wire_frame(frame);
+        if let Some(first) = first_number {
+            message.source_frame = message.number;
+            message.number = first + index as u64;
+        }
+        let due = begun + Duration::from_secs_f64(index as f64 / take.rate_hz);
+        let sending = async {
+            if !args.fast {
+                sleep_until(due).await;
+            }
+            client.send(message).await
+        };
+        tokio::select! {
+            sent = sending => if sent.is_err() {
+                // `finish` repeats the reason, with the counts.
+                break;
+            },
+            () = interrupt.wait() => break,
+        }
+        bar.inc(1);
+    }
+    bar.finish_and_clear();
+    Ok(())
+}

@@ -1,0 +1,175 @@
+//! `frontalis session …`: prepare, change and end captures.
+
+use std::process::ExitCode;
+
+use clap::{Args, Subcommand};
+use frontalis_client::{error::ClientError, proto};
+use proto::session_service_client::SessionServiceClient;
+
+use super::{Context, actor_name, session_name, settings::SettingsArgs, short_id};
+use crate::{
+    json,
+    terminal::{say, tables},
+};
+
+/// Sessions listed by one call.
+const PAGE_SIZE: u32 = 200;
+
+#[derive(Debug, Subcommand)]
+pub enum SessionCommand {
+    /// Prepare a capture of an actor
+    Create(CreateArgs),
+    /// List the sessions of the server
+    List,
+    /// Show one session: settings, state, counts, latencies, subscribers
+    Show(IdArgs),
+    /// Change settings, or move to another revision of the actor, between two frames
+    Update(UpdateArgs),
+    /// Take the next frames as the neutral face again
+    Recenter(IdArgs),
+    /// End a session: what is queued is solved, subscribers are told
+    End(IdArgs),
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = "Examples:
+  frontalis session create --actor anna --id take-1
+  frontalis session create --actor anna --neutral-frames 1 --regions split   as in the paper")]
+pub struct CreateArgs {
+    /// Whose capture it is
+    #[arg(long, value_name = "ID")]
+    actor: String,
+    /// Id of the session: 1 to 63 of a-z, 0-9, - and _ [default: the server makes one]
+    #[arg(long)]
+    id: Option<String>,
+    /// Name for people
+    #[arg(long, value_name = "NAME")]
+    display_name: Option<String>,
+    #[command(flatten)]
+    settings: SettingsArgs,
+}
+
+#[derive(Debug, Args)]
+pub struct IdArgs {
+    /// The session
+    id: String,
+}
+
+#[derive(Debug, Args)]
+#[command(after_help = "Only the settings that are given change.
+
+Example:
+  frontalis session update take-1 --exaggeration=false --actor-revision 2")]
+pub struct UpdateArgs {
+    /// The session
+    id: String,
+    /// Move to this revision of the actor
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    actor_revision: Option<u32>,
+    #[command(flatten)]
+    settings: SettingsArgs,
+}
+
+pub async fn run(context: &Context, command: SessionCommand) -> anyhow::Result<ExitCode> {
+    let mut client = SessionServiceClient::new(context.connect().await?);
+    let session = match command {
+        SessionCommand::List => {
+            list(context, &mut client).await?;
+            return Ok(ExitCode::SUCCESS);
+        }
+        SessionCommand::Create(args) => create(&mut client, args).await?,
+        SessionCommand::Show(args) => {
+            let name = session_name(&args.id);
+            let request = proto::GetSessionRequest { name };
+            answer(client.get_session(request).await)?.session
+        }
+        SessionCommand::Update(args) => update(&mut client, args).await?,
+        SessionCommand::Recenter(args) => {
+            let name = session_name(&args.id);
+            let request = proto::RecenterSessionRequest { name };
+            answer(client.recenter_session(request).await)?.session
+        }
+        SessionCommand::End(args) => {
+            let name = session_name(&args.id);
+            let request = proto::EndSessionRequest { name };
+            answer(client.end_session(request).await)?.session
+        }
+    };
+    show(context, &session.unwrap_or_default())?;
+    Ok(ExitCode::SUCCESS)
+}
+
+/// What a call returned, or why it was refused.
+fn answer<T>(called: Result<tonic::Response<T>, tonic::Status>) -> Result<T, ClientError> {
+    Ok(called?.into_inner())
+}
+
+type Client = SessionServiceClient<tonic::transport::Channel>;
+
+async fn create(
+    client: &mut Client,
+    args: CreateArgs,
+) -> Result<Option<proto::Session>, ClientError> {
+    let mut request = proto::CreateSessionRequest {
+        session_id: args
+            .id
+            .map(|it| short_id(&it).to_owned())
+            .unwrap_or_default(),
+        actor: actor_name(&args.actor),
+        settings: Some(args.settings.to_proto()),
+        display_name: args.display_name.unwrap_or_default(),
+        ..proto::CreateSessionRequest::default()
+    };
+    request.set_kind(proto::CaptureKind::Markers);
+    Ok(client.create_session(request).await?.into_inner().session)
+}
+
+async fn update(
+    client: &mut Client,
+    args: UpdateArgs,
+) -> Result<Option<proto::Session>, ClientError> {
+    let request = proto::UpdateSessionRequest {
+        name: session_name(&args.id),
+        settings: Some(args.settings.to_proto()),
+        actor_revision: args.actor_revision.unwrap_or_default(),
+        update_mask: None,
+    };
+    Ok(client.update_session(request).await?.into_inner().session)
+}
+
+async fn list(context: &Context, client: &mut Client) -> anyhow::Result<()> {
+    let mut sessions = Vec::new();
+    let mut page_token = String::new();
+    loop {
+        let request = proto::ListSessionsRequest {
+            page_size: PAGE_SIZE,
+            page_token,
+        };
+        let page = client
+            .list_sessions(request)
+            .await
+            .map_err(ClientError::from)?
+            .into_inner();
+        sessions.extend(page.sessions);
+        page_token = page.next_page_token;
+        if page_token.is_empty() {
+            break;
+        }
+    }
+    if context.json {
+        let sessions: Vec<_> = sessions.iter().map(json::session).collect();
+        say(serde_json::json!({ "sessions": sessions }))?;
+    } else {
+        say(tables::sessions(&sessions))?;
+    }
+    Ok(())
+}
+
+fn show(context: &Context, session: &proto::Session) -> anyhow::Result<()> {
+    if context.json {
+        say(json::session(session))?;
+    } else {
+        say(tables::session(session))?;
+    }
+    Ok(())
+}

@@ -1,0 +1,158 @@
+//! `frontalis solve TAKE.trc --actor PACKAGE`: the same analysis without a server.
+
+use std::{
+    fs,
+    io::{self, BufWriter, Write as _},
+    path::PathBuf,
+    process::ExitCode,
+    sync::Arc,
+};
+
+use anyhow::Context as _;
+use clap::Args;
+use frontalis_analysis::{
+    curve::Quality,
+    face::actor::{Actor, RankPolicy},
+};
+use frontalis_client::{
+    csv::{CsvRow, CsvWriter},
+    solve::{Solved, solve_take},
+    take_file,
+};
+use serde_json::json;
+
+use super::{Context, actor, settings::AnalysisArgs};
+use crate::terminal::{progress, say};
+
+/// Solve a TRC file without a server, as a session would
+#[derive(Debug, Args)]
+#[command(
+    after_help = "The table has the columns and the bits of `frontalis watch --csv` for the same frames and settings.
+
+Example:
+  frontalis solve take.trc --actor anna.zip --csv > take.csv"
+)]
+pub struct SolveArgs {
+    /// The file
+    take: PathBuf,
+    /// The actor's package, .zip or .glb
+    #[arg(long, value_name = "PACKAGE")]
+    actor: PathBuf,
+    /// Print a table of comma-separated values instead of a summary
+    #[arg(long, conflicts_with = "json")]
+    csv: bool,
+    /// Accept a basis whose muscles the markers cannot tell apart
+    #[arg(long)]
+    regularize: bool,
+    #[command(flatten)]
+    settings: AnalysisArgs,
+}
+
+pub fn run(context: &Context, args: &SolveArgs) -> anyhow::Result<ExitCode> {
+    let take = take_file::read(&args.take)?;
+    let package = fs::read(&args.actor)
+        .with_context(|| format!("cannot read the package {}", args.actor.display()))?;
+    let rank = if args.regularize {
+        RankPolicy::Regularize
+    } else {
+        RankPolicy::Refuse
+    };
+    let actor = actor::read_package(&package, rank)
+        .with_context(|| format!("cannot use the package {}", args.actor.display()))?;
+    let actor = Arc::new(actor);
+    let bar = progress::frames(take.frames.len() as u64, "solving");
+    let settings = args.settings.to_marker_settings();
+    let solved = solve_take(&take, &actor, settings, || bar.inc(1))
+        .with_context(|| format!("cannot solve {}", args.take.display()))?;
+    bar.finish_and_clear();
+    report_left_out(&solved);
+    if args.csv {
+        write_csv(&actor, &solved)?;
+    } else if context.json {
+        write_json(&actor, &solved)?;
+    } else {
+        say(summary(&solved, take.frames.len()))?;
+    }
+    Ok(ExitCode::SUCCESS)
+}
+
+fn report_left_out(solved: &Solved) {
+    if !solved.unknown_markers.is_empty() {
+        eprintln!(
+            "markers that the actor does not have, left out: {}",
+            solved.unknown_markers.join(", ")
+        );
+    }
+    if solved.unaligned_frames > 0 {
+        eprintln!(
+            "the take ended before its neutral face was known: {} frames gave no sample (--neutral-frames asks for fewer)",
+            solved.unaligned_frames
+        );
+    }
+    for (reason, frames) in &solved.rejected {
+        eprintln!("{frames} frames were not used: {reason}");
+    }
+}
+
+fn muscle_names(actor: &Actor) -> impl Iterator<Item = &str> {
+    actor
+        .muscle_set()
+        .muscles()
+        .iter()
+        .map(|it| it.name.as_str())
+}
+
+fn write_csv(actor: &Actor, solved: &Solved) -> io::Result<()> {
+    let out = BufWriter::new(io::stdout().lock());
+    let mut writer = CsvWriter::new(out, muscle_names(actor))?;
+    for sample in &solved.samples {
+        writer.write(&CsvRow::from(sample))?;
+    }
+    writer.flush()
+}
+
+/// One JSON object a sample, after one that names the controls.
+fn write_json(actor: &Actor, solved: &Solved) -> io::Result<()> {
+    let mut out = BufWriter::new(io::stdout().lock());
+    let names: Vec<_> = muscle_names(actor).collect();
+    writeln!(out, "{}", json!({ "event": "header", "controls": names }))?;
+    for sample in &solved.samples {
+        let row = CsvRow::from(sample);
+        let value = json!({
+            "event": "sample",
+            "frame": row.frame,
+            "capture_time_nanos": row.capture_time_nanos,
+            "quality": row.quality,
+            "activations": row.activations,
+        });
+        writeln!(out, "{value}")?;
+    }
+    out.flush()
+}
+
+fn summary(solved: &Solved, n_frames: usize) -> String {
+    let count = |quality| {
+        solved
+            .samples
+            .iter()
+            .filter(|it| it.quality == quality)
+            .count()
+    };
+    let mean_error_mm = |region: usize| {
+        let errors: Vec<_> = solved
+            .samples
+            .iter()
+            .map(|it| it.regions[region].marker_error_cm * 10.0)
+            .collect();
+        errors.iter().sum::<f64>() / (errors.len().max(1) as f64)
+    };
+    format!(
+        "{n_frames} frames, {} samples: {} solved, {} partial, {} held; mean marker error upper {:.3} mm, lower {:.3} mm (--csv prints the curves)",
+        solved.samples.len(),
+        count(Quality::Solved),
+        count(Quality::Partial),
+        count(Quality::Held),
+        mean_error_mm(0),
+        mean_error_mm(1),
+    )
+}

@@ -1,0 +1,264 @@
+//! The analysis of a take without a server: the same frames, the same function, the same bits.
+//!
+//! What the wire would do to a frame is done here too: unknown markers are left out, a marker with a NaN is occluded,
+//! frames that a server rejects are skipped and counted.
+
+use std::{collections::BTreeMap, sync::Arc};
+
+use frontalis_analysis::{
+    analyzer::{MarkerAnalyzer, MarkerSettings, Progress},
+    curve::CurveSample,
+    face::{
+        actor::Actor,
+        marker::{FrameIndex, MarkerFrame},
+    },
+    format::trc::{TrcFrame, TrcTake},
+    marker_analysis::alignment::AlignmentError,
+    space::PerformancePoint,
+};
+
+/// A coordinate beyond ±10 m is not a face in a capture volume (A11 of the bad-input table).
+const VOLUME_CM: f64 = 1_000.0;
+
+/// The curves of a take.
+#[derive(Clone, Debug, Default)]
+pub struct Solved {
+    /// One sample a usable frame, in order.
+    pub samples: Vec<CurveSample>,
+    /// Frames that were not used, by the reason a server would give.
+    pub rejected: BTreeMap<&'static str, u64>,
+    /// Frames at the end of a take that was over before its neutral face was known.
+    pub unaligned_frames: u64,
+    /// Markers of the file that the actor does not have.
+    pub unknown_markers: Vec<String>,
+}
+
+/// Why a take cannot be solved.
+#[derive(Debug, thiserror::Error)]
+pub enum SolveError {
+    /// The take is of another marker layout.
+    #[error("none of the take's {n_markers} markers is one of the actor's")]
+    UnknownMarkers {
+        /// Markers in the take.
+        n_markers: usize,
+    },
+    /// The neutral frames do not fit the actor.
+    #[error("the neutral face could not be aligned, frame {frame}")]
+    Alignment {
+        /// The frame with which the neutral frames were complete.
+        frame: u64,
+        /// Why.
+        #[source]
+        source: AlignmentError,
+    },
+}
+
+/// Solves a whole take. `on_frame` is told after each frame.
+///
+/// # Errors
+///
+/// When the marker names do not fit the actor, or the neutral frames cannot be aligned.
+pub fn solve_take(
+    take: &TrcTake,
+    actor: &Arc<Actor>,
+    settings: MarkerSettings,
+    mut on_frame: impl FnMut(),
+) -> Result<Solved, SolveError> {
+    let places = marker_places(take, actor)?;
+    let mut analyzer = MarkerAnalyzer::new(Arc::clone(actor), settings, take.unit, take.rate_hz);
+    let mut solved = Solved::default();
+    for (name, place) in take.marker_names.iter().zip(&places) {
+        if place.is_none() {
+            solved.unknown_markers.push(name.clone());
+        }
+    }
+    let mut newest = None;
+    for frame in &take.frames {
+        match usable_frame(take, frame, &places, actor, newest) {
+            Ok(usable) => {
+                newest = Some(frame.number);
+                let progress = analyzer
+                    .push(usable, &mut solved.samples)
+                    .map_err(|source| SolveError::Alignment {
+                        frame: frame.number,
+                        source,
+                    })?;
+                solved.unaligned_frames = match progress {
+                    Progress::Waiting | Progress::Collecting { .. } => solved.unaligned_frames + 1,
+                    Progress::Aligned | Progress::Solved => 0,
+                };
+            }
+            Err(reason) => *solved.rejected.entry(reason).or_default() += 1,
+        }
+        on_frame();
+    }
+    Ok(solved)
+}
+
+/// For each marker of the take its index in the actor.
+fn marker_places(take: &TrcTake, actor: &Actor) -> Result<Vec<Option<usize>>, SolveError> {
+    let place = |name: &String| actor.markers().iter().position(|it| it.name == *name);
+    let places: Vec<_> = take.marker_names.iter().map(place).collect();
+    if places.iter().all(Option::is_none) {
+        return Err(SolveError::UnknownMarkers {
+            n_markers: places.len(),
+        });
+    }
+    Ok(places)
+}
+
+/// The frame in the actor's order and centimeters, or the reason for which a server rejects it.
+fn usable_frame(
+    take: &TrcTake,
+    frame: &TrcFrame,
+    places: &[Option<usize>],
+    actor: &Actor,
+    newest: Option<u64>,
+) -> Result<MarkerFrame, &'static str> {
+    if newest.is_some_and(|it| frame.number <= it) {
+        return Err("LATE");
+    }
+    if frame.positions.len() != places.len() {
+        return Err("MARKER_COUNT");
+    }
+    let mut positions = vec![None; actor.markers().len()];
+    for (xyz, place) in frame.positions.iter().zip(places) {
+        let point = usable_point(take, *xyz)?;
+        if let Some(place) = *place {
+            positions[place] = point;
+        }
+    }
+    Ok(MarkerFrame {
+        index: FrameIndex(frame.number),
+        capture_time_nanos: frame.capture_time_nanos(),
+        positions,
+    })
+}
+
+fn usable_point(
+    take: &TrcTake,
+    [x, y, z]: [f32; 3],
+) -> Result<Option<PerformancePoint>, &'static str> {
+    if [x, y, z].iter().any(|it| it.is_infinite()) {
+        return Err("NON_FINITE");
+    }
+    if [x, y, z].iter().any(|it| it.is_nan()) {
+        return Ok(None);
+    }
+    let point = take.unit.performance_point(x, y, z);
+    if point.0.iter().any(|it| it.abs() > VOLUME_CM) {
+        return Err("OUT_OF_VOLUME");
+    }
+    Ok(Some(point))
+}
+
+#[cfg(test)]
+mod tests {
+    use frontalis_analysis::{space::LengthUnit, synthesis::reference_face};
+
+    use super::*;
+    use crate::simulated_stage::{SimulatedStage, StageSettings};
+
+    /// Two seconds of the reference actor seen without noise, and the true activations.
+    fn take() -> (Arc<Actor>, TrcTake, Vec<Vec<f64>>) {
+        let actor = Arc::new(reference_face::actor());
+        let settings = StageSettings {
+            seconds: 2.0,
+            pixel_noise: 0.0,
+            misses: 0.0,
+            ..StageSettings::default()
+        };
+        let mut truth = Vec::new();
+        let mut frames = Vec::new();
+        for frame in SimulatedStage::new(Arc::clone(&actor), settings).unwrap() {
+            #[expect(clippy::cast_possible_truncation, reason = "a take holds f32")]
+            let coordinates = |it: &PerformancePoint| it.0.coords.map(|it| it as f32);
+            frames.push(TrcFrame {
+                number: frame.number,
+                time_s: frame.capture_time_nanos as f64 * 1e-9,
+                positions: frame
+                    .true_positions
+                    .iter()
+                    .map(|it| coordinates(it).into())
+                    .collect(),
+            });
+            truth.push(frame.truth);
+        }
+        let take = TrcTake {
+            rate_hz: settings.rate_hz,
+            unit: LengthUnit::Centimeter,
+            marker_names: actor.markers().iter().map(|it| it.name.clone()).collect(),
+            frames,
+        };
+        (actor, take, truth)
+    }
+
+    fn solve(actor: &Arc<Actor>, take: &TrcTake) -> Solved {
+        solve_take(take, actor, MarkerSettings::default(), || ()).unwrap()
+    }
+
+    #[test]
+    fn a_performance_without_noise_gives_its_activations_back() {
+        let (actor, take, truth) = take();
+        let solved = solve(&actor, &take);
+        assert_eq!(solved.samples.len(), take.frames.len());
+        for (sample, truth) in solved.samples.iter().zip(&truth) {
+            for (found, truth) in sample.activations.iter().zip(truth) {
+                assert!((found - truth).abs() < 0.01, "frame {}", sample.frame.0);
+            }
+        }
+    }
+
+    #[test]
+    fn the_order_of_the_markers_in_the_file_does_not_matter() {
+        let (actor, take, _) = take();
+        let mut reversed = take.clone();
+        reversed.marker_names.reverse();
+        for frame in &mut reversed.frames {
+            frame.positions.reverse();
+        }
+        assert_eq!(
+            solve(&actor, &take).samples,
+            solve(&actor, &reversed).samples
+        );
+    }
+
+    #[test]
+    fn frames_that_a_server_rejects_are_left_out_and_counted() {
+        let (actor, mut take, _) = take();
+        take.frames[30].positions[1][1] = f32::INFINITY;
+        take.frames[31].positions[1][1] = 1_000.5;
+        take.frames[32].number = 7;
+        take.frames[33].positions.pop();
+        // One coordinate unknown: only that marker is occluded.
+        take.frames[34].positions[1][1] = f32::NAN;
+        let solved = solve(&actor, &take);
+        assert_eq!(solved.samples.len(), take.frames.len() - 4);
+        let reasons: Vec<_> = solved.rejected.keys().copied().collect();
+        assert_eq!(
+            reasons,
+            ["LATE", "MARKER_COUNT", "NON_FINITE", "OUT_OF_VOLUME"]
+        );
+    }
+
+    #[test]
+    fn markers_that_the_actor_does_not_have_are_left_out_by_name() {
+        let (actor, mut take, _) = take();
+        take.marker_names[0] = "ear_left".to_owned();
+        assert_eq!(solve(&actor, &take).unknown_markers, ["ear_left"]);
+        for (index, name) in take.marker_names.iter_mut().enumerate() {
+            *name = format!("unknown_{index}");
+        }
+        let error = solve_take(&take, &actor, MarkerSettings::default(), || ()).unwrap_err();
+        assert!(matches!(error, SolveError::UnknownMarkers { n_markers } if n_markers > 0));
+    }
+
+    #[test]
+    fn a_take_that_is_over_before_its_neutral_face_is_known_says_so() {
+        let (actor, mut take, _) = take();
+        take.frames.truncate(5);
+        let solved = solve(&actor, &take);
+        assert!(solved.samples.is_empty());
+        assert_eq!(solved.unaligned_frames, 5);
+    }
+}

@@ -1,0 +1,296 @@
+//! Actors and sessions as tables, with units in the headings.
+
+use comfy_table::{ContentArrangement, Table, presets};
+use frontalis_client::proto::{
+    Actor, CaptureKind, FaceRegion, RegionMode, Session, SessionState, SessionStatus,
+};
+
+use crate::commands::short_id;
+
+/// A table with these headings.
+pub fn table(headings: &[&str]) -> Table {
+    let mut table = Table::new();
+    table
+        .load_style(presets::UTF8_FULL_CONDENSED)
+        .set_content_arrangement(ContentArrangement::Dynamic)
+        .set_header(headings);
+    table
+}
+
+/// Two columns: what, and its value.
+fn facts(rows: impl IntoIterator<Item = (&'static str, String)>) -> Table {
+    let mut table = Table::new();
+    table
+        .load_style(presets::UTF8_FULL_CONDENSED)
+        .set_content_arrangement(ContentArrangement::Dynamic);
+    for (what, value) in rows {
+        table.add_row([what.to_owned(), value]);
+    }
+    table
+}
+
+/// One line an actor.
+pub fn actors(actors: &[Actor]) -> Table {
+    let mut table = table(&[
+        "actor",
+        "display name",
+        "revision",
+        "muscle set",
+        "muscles",
+        "markers",
+        "vertices",
+        "created (UTC)",
+    ]);
+    for actor in actors {
+        table.add_row([
+            short_id(&actor.name).to_owned(),
+            actor.display_name.clone(),
+            actor.revision.to_string(),
+            actor.muscle_set.clone(),
+            actor.muscles.len().to_string(),
+            actor.markers.len().to_string(),
+            actor.n_vertices.to_string(),
+            timestamp(actor.create_time.as_ref()),
+        ]);
+    }
+    table
+}
+
+/// Everything about one actor.
+pub fn actor(actor: &Actor) -> String {
+    let basis = actor.basis.clone().unwrap_or_default();
+    let summary = facts([
+        ("actor", short_id(&actor.name).to_owned()),
+        ("display name", actor.display_name.clone()),
+        ("newest revision", actor.revision.to_string()),
+        ("created (UTC)", timestamp(actor.create_time.as_ref())),
+        ("vertices", actor.n_vertices.to_string()),
+        ("triangles", actor.n_triangles.to_string()),
+        ("muscle set", actor.muscle_set.clone()),
+        (
+            "condition of the basis, upper face",
+            format!("{:.1}", basis.condition_upper),
+        ),
+        (
+            "condition of the basis, lower face",
+            format!("{:.1}", basis.condition_lower),
+        ),
+    ]);
+    let mut muscles = table(&["muscle", "region"]);
+    for muscle in &actor.muscles {
+        muscles.add_row([muscle.name.as_str(), region(muscle.region())]);
+    }
+    let mut markers = table(&["marker", "region", "head-fixed"]);
+    for marker in &actor.markers {
+        let head_fixed = if marker.head_fixed { "yes" } else { "" };
+        markers.add_row([marker.name.as_str(), region(marker.region()), head_fixed]);
+    }
+    let mut parts = vec![
+        summary.to_string(),
+        muscles.to_string(),
+        markers.to_string(),
+    ];
+    parts.extend(basis.ambiguous.iter().map(|pair| {
+        format!(
+            "the markers hardly tell {} and {} apart (correlation {:.3})",
+            pair.first, pair.second, pair.correlation
+        )
+    }));
+    parts.join("\n")
+}
+
+/// One line a session.
+pub fn sessions(sessions: &[Session]) -> Table {
+    let mut table = table(&[
+        "session",
+        "actor",
+        "state",
+        "run",
+        "last frame",
+        "rate (frames/s)",
+        "received",
+        "rejected",
+        "shed",
+        "missing",
+        "subscribers",
+    ]);
+    for session in sessions {
+        let status = session.status.clone().unwrap_or_default();
+        table.add_row([
+            short_id(&session.name).to_owned(),
+            short_id(&session.actor).to_owned(),
+            state(status.state()).to_owned(),
+            status.run.to_string(),
+            status.last_frame.to_string(),
+            format!("{:.1}", status.frame_rate_hz),
+            status.frames_received.to_string(),
+            status.frames_rejected.to_string(),
+            status.frames_shed.to_string(),
+            status.frames_missing.to_string(),
+            status.subscribers.len().to_string(),
+        ]);
+    }
+    table
+}
+
+/// Everything about one session.
+pub fn session(session: &Session) -> String {
+    let status = session.status.clone().unwrap_or_default();
+    let mut parts = vec![facts(session_facts(session, &status)).to_string()];
+    if !status.latencies.is_empty() {
+        let mut latencies = table(&["latency", "p50 (µs)", "p99 (µs)", "max (µs)"]);
+        for it in &status.latencies {
+            let latency = it.latency.unwrap_or_default();
+            latencies.add_row([
+                it.stage.clone(),
+                format!("{:.0}", latency.p50_micros),
+                format!("{:.0}", latency.p99_micros),
+                format!("{:.0}", latency.max_micros),
+            ]);
+        }
+        parts.push(latencies.to_string());
+    }
+    if !status.subscribers.is_empty() {
+        let mut subscribers = table(&["subscriber", "protocol", "sent", "skipped", "lag (frames)"]);
+        for it in &status.subscribers {
+            subscribers.add_row([
+                it.subscriber.clone(),
+                it.protocol.clone(),
+                it.sent_samples.to_string(),
+                it.skipped_samples.to_string(),
+                it.lag_frames.to_string(),
+            ]);
+        }
+        parts.push(subscribers.to_string());
+    }
+    parts.join("\n")
+}
+
+fn session_facts(session: &Session, status: &SessionStatus) -> Vec<(&'static str, String)> {
+    let settings = session.settings.unwrap_or_default();
+    let mut rows = vec![
+        ("session", short_id(&session.name).to_owned()),
+        ("display name", session.display_name.clone()),
+        ("actor", short_id(&session.actor).to_owned()),
+        ("actor revision", status.actor_revision.to_string()),
+        ("captures", kind(session.kind()).to_owned()),
+        ("created (UTC)", timestamp(session.create_time.as_ref())),
+        ("state", state(status.state()).to_owned()),
+        ("run", status.run.to_string()),
+        ("last frame", status.last_frame.to_string()),
+        ("rate (frames/s)", format!("{:.2}", status.frame_rate_hz)),
+        ("frames received", status.frames_received.to_string()),
+        ("frames rejected", status.frames_rejected.to_string()),
+        ("frames shed", status.frames_shed.to_string()),
+        ("frames missing", status.frames_missing.to_string()),
+        (
+            "neutral frames",
+            settings.neutral_frames.unwrap_or_default().to_string(),
+        ),
+        ("regions", region_mode(settings.region_mode()).to_owned()),
+        (
+            "exaggeration",
+            yes(settings.allow_exaggeration.unwrap_or_default()),
+        ),
+        (
+            "solves for head motion",
+            yes(settings.stabilize_head.unwrap_or_default()),
+        ),
+        (
+            "aligns on request",
+            yes(settings.align_on_request.unwrap_or_default()),
+        ),
+        ("stale after (s)", duration(settings.stale_after)),
+        (
+            "publisher timeout (s)",
+            duration(settings.publisher_timeout),
+        ),
+    ];
+    if let Some(alignment) = status.alignment {
+        rows.push(("alignment: markers", alignment.n_markers.to_string()));
+        rows.push(("alignment: scale", format!("{:.5}", alignment.scale)));
+        rows.push((
+            "alignment: residual (mm)",
+            format!("{:.3}", alignment.rms_residual_cm * 10.0),
+        ));
+    }
+    if !status.alignment_problem.is_empty() {
+        rows.push(("alignment failed", status.alignment_problem.clone()));
+    }
+    if !status.failure.is_empty() {
+        rows.push(("failed", status.failure.clone()));
+    }
+    if !status.unknown_markers.is_empty() {
+        rows.push((
+            "markers not of this actor",
+            status.unknown_markers.join(", "),
+        ));
+    }
+    rows
+}
+
+/// `waiting`, `aligning`, `live`, `stale`, `ended`, `failed`.
+pub fn state(state: SessionState) -> &'static str {
+    match state {
+        SessionState::Unspecified => "unspecified",
+        SessionState::Waiting => "waiting",
+        SessionState::Aligning => "aligning",
+        SessionState::Live => "live",
+        SessionState::Stale => "stale",
+        SessionState::Ended => "ended",
+        SessionState::Failed => "failed",
+    }
+}
+
+/// `upper` or `lower`.
+pub fn region(region: FaceRegion) -> &'static str {
+    match region {
+        FaceRegion::Unspecified => "",
+        FaceRegion::Upper => "upper",
+        FaceRegion::Lower => "lower",
+    }
+}
+
+/// `joint` or `split`.
+pub fn region_mode(mode: RegionMode) -> &'static str {
+    match mode {
+        RegionMode::Unspecified | RegionMode::Joint => "joint",
+        RegionMode::Split => "split",
+    }
+}
+
+/// `markers` or `images`.
+pub fn kind(kind: CaptureKind) -> &'static str {
+    match kind {
+        CaptureKind::Unspecified | CaptureKind::Markers => "markers",
+        CaptureKind::Images => "images",
+    }
+}
+
+fn yes(it: bool) -> String {
+    if it { "yes" } else { "no" }.to_owned()
+}
+
+fn duration(duration: Option<prost_types::Duration>) -> String {
+    duration.map_or_else(
+        || "automatic".to_owned(),
+        |it| format!("{:.3}", seconds(it)),
+    )
+}
+
+/// Seconds of a wire duration.
+pub fn seconds(duration: prost_types::Duration) -> f64 {
+    duration.seconds as f64 + f64::from(duration.nanos) * 1e-9
+}
+
+/// `2026-11-22T16:59:09Z`, or nothing.
+pub fn timestamp(time: Option<&prost_types::Timestamp>) -> String {
+    time.map(|it| {
+        prost_types::Timestamp {
+            seconds: it.seconds,
+            nanos: 0,
+        }
+        .to_string()
+    })
+    .unwrap_or_default()
+}
