@@ -31,3 +31,4 @@ pub use settings::{
     StreamShape,
 };
 pub use status::{AlignmentReport, ControlRange, Latency, SessionStatus, StageLatency};
+pub use worker::alignment_problem;

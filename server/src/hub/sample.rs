@@ -36,11 +36,13 @@ impl PublishedSample {
     /// Bytes of memory that the sample holds, for the limits of the window.
     pub(super) fn cost_bytes(&self) -> usize {
         let sample = &self.sample;
+        let trace = &sample.markers;
         size_of::<Self>()
-            + sample.activations.len() * size_of::<f64>()
-            + (sample.unobserved.len() + sample.markers.markers.len()) * size_of::<u16>()
-            + (sample.markers.observed_cm.len() + sample.markers.reproduced_cm.len())
-                * size_of::<f32>()
+            + size_of_val(sample.activations.as_slice())
+            + size_of_val(sample.unobserved.as_slice())
+            + size_of_val(trace.markers.as_slice())
+            + size_of_val(trace.observed_cm.as_slice())
+            + size_of_val(trace.reproduced_cm.as_slice())
     }
 }
 

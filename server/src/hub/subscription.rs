@@ -194,6 +194,11 @@ impl Subscription {
         }
     }
 
+    /// Samples that were passed over since the subscription began.
+    pub fn skipped_samples(&self) -> u64 {
+        self.skipped_samples
+    }
+
     /// Waits for what comes next. Nothing is lost when the future is dropped.
     pub async fn next(&mut self) -> Delivered {
         loop {

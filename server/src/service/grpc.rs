@@ -3,6 +3,7 @@
 pub mod actors;
 pub mod capture;
 pub mod curves;
+mod ending;
 mod refusal;
 pub mod sessions;
 pub mod status;

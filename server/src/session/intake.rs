@@ -20,7 +20,7 @@ use super::{
 };
 use crate::{
     clock::{ServerClock, nanos},
-    hub::{BufferBudget, GapCause},
+    hub::{BufferBudget, Gap, GapCause},
     name::PublisherId,
 };
 
@@ -284,7 +284,7 @@ impl Intake {
         let skipped = gaps_before
             .iter()
             .filter(|it| it.cause != GapCause::Rejected);
-        let n_missing = skipped.map(|it| it.n_frames());
+        let n_missing = skipped.map(Gap::n_frames);
         self.counts.missing = n_missing.fold(self.counts.missing, u64::saturating_add);
         self.counts.received += 1;
         self.counts.partial_markers += frame.n_partial_markers as u64;

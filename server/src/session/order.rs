@@ -8,7 +8,7 @@ use std::collections::VecDeque;
 
 use crate::hub::{Gap, GapCause};
 
-/// Largest step between two numbers; a larger one is a mistake, not a gap (BAD_INPUT A22).
+/// Largest step between two numbers; a larger one is a mistake, not a gap (bad input A22).
 const MAX_JUMP: u64 = 1 << 32;
 /// Most frames that are recognized when they are sent again, whatever the rate.
 const MAX_RECENT_FRAMES: usize = 1 << 16;

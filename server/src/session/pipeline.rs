@@ -35,7 +35,7 @@ const MAX_AWAITING: usize = 4_096;
 #[derive(Debug)]
 pub(super) enum Outcome {
     /// A sample with what its frame brought along.
-    Sample(CurveSample, FrameNote),
+    Sample(Box<CurveSample>, FrameNote),
     /// Numbers without samples.
     Gap(Gap),
 }
@@ -234,7 +234,7 @@ impl Pipeline {
         while let Some(oldest) = self.awaiting.pop_front() {
             match oldest {
                 Awaiting::Frame(note) if note.number == number => {
-                    outcomes.push(Outcome::Sample(sample, note));
+                    outcomes.push(Outcome::Sample(Box::new(sample), note));
                     return;
                 }
                 other => outcomes.push(Outcome::Gap(other.into_gap())),

@@ -3,7 +3,7 @@
 use crate::clock::nanos;
 use std::time::Duration;
 
-/// How long a publisher above the limit is slowed down before its excess frames are refused (BAD_INPUT A26).
+/// How long a publisher above the limit is slowed down before its excess frames are refused (bad input A26).
 const FLOW_CONTROL: Duration = Duration::from_secs(1);
 
 /// What the limit says to one more frame.
@@ -70,13 +70,14 @@ impl RateLimit {
 /// Events a second over the last two seconds, from counts of quarter seconds.
 #[derive(Debug, Default)]
 pub(super) struct RateMeter {
-    counts: [u32; N_SLOTS],
+    counts: [u32; 9],
     newest_slot: i64,
     first_slot: Option<i64>,
 }
 
 const SLOT_NANOS: i64 = 250_000_000;
-const N_SLOTS: usize = 9;
+/// The slot that fills, and the full ones of two seconds.
+const N_SLOTS: i64 = 9;
 
 impl RateMeter {
     pub(super) fn count(&mut self, now_nanos: i64) {
@@ -91,7 +92,7 @@ impl RateMeter {
         let Some(first) = self.first_slot else {
             return 0.0;
         };
-        let n_full = (slot - first).min(N_SLOTS as i64 - 1);
+        let n_full = (slot - first).min(N_SLOTS - 1);
         let full = (1..=n_full).map(|back| f64::from(self.counts[slot_idx(slot - back)]));
         let total: f64 = full.sum();
         total / (n_full.max(1) as f64 * SLOT_NANOS as f64 * 1e-9)
@@ -99,7 +100,7 @@ impl RateMeter {
 
     fn advance(&mut self, now_nanos: i64) -> i64 {
         let slot = now_nanos / SLOT_NANOS;
-        let n_passed = (slot - self.newest_slot).min(N_SLOTS as i64);
+        let n_passed = (slot - self.newest_slot).min(N_SLOTS);
         for back in 0..n_passed {
             self.counts[slot_idx(slot - back)] = 0;
         }
@@ -109,7 +110,7 @@ impl RateMeter {
 }
 
 fn slot_idx(slot: i64) -> usize {
-    usize::try_from(slot.rem_euclid(N_SLOTS as i64)).unwrap_or(0)
+    usize::try_from(slot.rem_euclid(N_SLOTS)).unwrap_or(0)
 }
 
 #[cfg(test)]

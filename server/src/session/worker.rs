@@ -193,7 +193,7 @@ impl Worker {
                     passages.push_back((note.received_nanos, note.started_nanos));
                     Outgoing::Sample(Box::new(PublishedSample {
                         sequence: 0,
-                        sample,
+                        sample: *sample,
                         tag: note.tag,
                         solved_time_nanos: solved_nanos,
                         actor_revision: self.actor_revision,
@@ -336,8 +336,8 @@ fn state_after(progress: Progress) -> SessionState {
     }
 }
 
-/// The identifier of the bad-input table.
-pub(super) fn alignment_problem(error: &AlignmentError) -> &'static str {
+/// Why a neutral face could not be aligned, by the identifier of the bad-input table.
+pub fn alignment_problem(error: &AlignmentError) -> &'static str {
     match error {
         AlignmentError::UnitsSuspect { .. } => "UNITS_SUSPECT",
         AlignmentError::Mirrored => "MIRRORED",

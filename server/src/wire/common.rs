@@ -1,1 +1,127 @@
-//! common on the wire.
+//! The vocabulary of `common.proto`: units, regions, states, time of day, head pose.
+
+use frontalis_analysis::{
+    face::region::FaceRegion,
+    space::{HeadPose, LengthUnit},
+};
+use frontalis_proto::v1;
+
+use super::invalid::{FieldError, FieldProblem};
+use crate::hub::{SessionState, Timecode};
+
+/// The unit that a publisher must declare: a wrong guess is off by a factor of ten.
+///
+/// # Errors
+///
+/// `UNIT` when it is not given, `ENUM` when it is not known.
+pub fn length_unit(field: &'static str, number: i32) -> Result<LengthUnit, FieldError> {
+    match v1::LengthUnit::try_from(number) {
+        Ok(v1::LengthUnit::Millimeter) => Ok(LengthUnit::Millimeter),
+        Ok(v1::LengthUnit::Centimeter) => Ok(LengthUnit::Centimeter),
+        Ok(v1::LengthUnit::Meter) => Ok(LengthUnit::Meter),
+        Ok(v1::LengthUnit::Unspecified) => Err(FieldError::unusable(
+            field,
+            "UNIT",
+            "the unit must be given",
+        )),
+        Err(_unknown) => Err(FieldError::new(field, FieldProblem::UnknownEnum(number))),
+    }
+}
+
+/// The region's number on the wire.
+pub fn face_region(region: FaceRegion) -> v1::FaceRegion {
+    match region {
+        FaceRegion::Upper => v1::FaceRegion::Upper,
+        FaceRegion::Lower => v1::FaceRegion::Lower,
+    }
+}
+
+/// The state's number on the wire.
+pub fn session_state(state: SessionState) -> v1::SessionState {
+    match state {
+        SessionState::Waiting => v1::SessionState::Waiting,
+        SessionState::Aligning => v1::SessionState::Aligning,
+        SessionState::Live => v1::SessionState::Live,
+        SessionState::Stale => v1::SessionState::Stale,
+        SessionState::Ended => v1::SessionState::Ended,
+        SessionState::Failed => v1::SessionState::Failed,
+    }
+}
+
+/// A time of day that can occur; `None` when it cannot.
+pub fn timecode(sent: &v1::Timecode) -> Option<Timecode> {
+    let timecode = Timecode {
+        hours: sent.hours,
+        minutes: sent.minutes,
+        seconds: sent.seconds,
+        frames: sent.frames,
+        rate_numerator: sent.rate_numerator,
+        rate_denominator: sent.rate_denominator,
+        drop_frame: sent.drop_frame,
+        sub_frame: sent.sub_frame,
+        user_bits: sent.user_bits,
+    };
+    timecode.checked()
+}
+
+/// The time of day on the wire.
+pub fn timecode_to_wire(timecode: &Timecode) -> v1::Timecode {
+    v1::Timecode {
+        hours: timecode.hours,
+        minutes: timecode.minutes,
+        seconds: timecode.seconds,
+        frames: timecode.frames,
+        rate_numerator: timecode.rate_numerator,
+        rate_denominator: timecode.rate_denominator,
+        drop_frame: timecode.drop_frame,
+        sub_frame: timecode.sub_frame,
+        user_bits: timecode.user_bits,
+    }
+}
+
+/// The head's motion on the wire.
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "the wire has f32; values are a unit quaternion and centimeters"
+)]
+pub fn head_pose(pose: &HeadPose) -> v1::HeadPose {
+    let rotation = pose.rotation.quaternion();
+    v1::HeadPose {
+        qx: rotation.i as f32,
+        qy: rotation.j as f32,
+        qz: rotation.k as f32,
+        qw: rotation.w as f32,
+        tx_cm: pose.translation_cm.x as f32,
+        ty_cm: pose.translation_cm.y as f32,
+        tz_cm: pose.translation_cm.z as f32,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_unit_must_be_given_and_known() {
+        assert_eq!(length_unit("unit", 1), Ok(LengthUnit::Millimeter));
+        assert_eq!(length_unit("unit", 0).unwrap_err().reason(), "UNIT");
+        assert_eq!(length_unit("unit", 77).unwrap_err().reason(), "ENUM");
+    }
+
+    #[test]
+    fn a_valid_time_of_day_returns_unchanged() {
+        let sent = v1::Timecode {
+            hours: 23,
+            minutes: 59,
+            seconds: 59,
+            frames: 29,
+            rate_numerator: 30_000,
+            rate_denominator: 1_001,
+            drop_frame: true,
+            sub_frame: 0.25,
+            user_bits: 7,
+        };
+        assert_eq!(timecode_to_wire(&timecode(&sent).unwrap()), sent);
+        assert!(timecode(&v1::Timecode::default()).is_none());
+    }
+}

@@ -1,1 +1,418 @@
-//! curve on the wire.
+//! `curve.proto`: what a subscriber asks for, and samples on their way out.
+//!
+//! Nothing that is not finite leaves here (CONTRACTS N-1): activations are inside their box by the solver's promise, and
+//! are clamped to it after rounding to f32.
+
+use frontalis_analysis::curve::{CurveSample, HeldReason, Quality, RegionReport};
+use frontalis_proto::v1;
+
+use super::{
+    common,
+    invalid::{FieldError, FieldProblem},
+};
+use crate::{
+    hub::{Delivery, Gap, GapCause, PublishedSample, StartAt, StreamState, SubscribeSpec, Update},
+    name::{DisplayName, SessionId},
+    session::SessionHandle,
+};
+
+/// What a subscriber asks for, checked.
+#[derive(Clone, Debug)]
+pub struct SubscribeRequest {
+    /// Which session.
+    pub session: SessionId,
+    /// What it gets.
+    pub spec: SubscribeSpec,
+    /// What each sample holds.
+    pub detail: SampleDetail,
+}
+
+/// What a sample holds beside the activations.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct SampleDetail {
+    /// The markers, as seen and as reproduced.
+    pub with_markers: bool,
+}
+
+/// Why a subscriber's request is refused.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum SubscribeRefusal {
+    /// A field is wrong.
+    #[error(transparent)]
+    Invalid(#[from] FieldError),
+    /// Asked for something that this version does not do.
+    #[error("{what} is not implemented")]
+    NotImplemented {
+        /// What was asked for.
+        what: &'static str,
+    },
+}
+
+/// Checks a subscriber's start; `peer` names a subscriber that gives no name. `credits` are ignored where the subscriber
+/// cannot return them.
+///
+/// # Errors
+///
+/// [`SubscribeRefusal`] names the first field that is wrong or not implemented.
+pub fn start(
+    sent: v1::SubscribeStart,
+    peer: String,
+    can_return_credits: bool,
+) -> Result<SubscribeRequest, SubscribeRefusal> {
+    let session = SessionId::from_resource(&sent.session).map_err(FieldError::name("session"))?;
+    let name = DisplayName::parse("subscriber", &sent.subscriber)
+        .map_err(FieldError::name("subscriber"))?;
+    check_control_space(sent.control_space)?;
+    if sent.with_uncertainty {
+        return Err(SubscribeRefusal::NotImplemented {
+            what: "with_uncertainty",
+        });
+    }
+    let delivery = delivery(&sent, can_return_credits)?;
+    let name = name.into_string();
+    Ok(SubscribeRequest {
+        session,
+        spec: SubscribeSpec {
+            name: if name.is_empty() { peer } else { name },
+            protocol: "grpc",
+            delivery,
+            run: (sent.run != 0).then_some(sent.run),
+        },
+        detail: SampleDetail {
+            with_markers: sent.with_markers,
+        },
+    })
+}
+
+fn check_control_space(number: i32) -> Result<(), SubscribeRefusal> {
+    match v1::ControlSpace::try_from(number) {
+        Ok(v1::ControlSpace::Unspecified | v1::ControlSpace::Muscles) => Ok(()),
+        Ok(v1::ControlSpace::Facs) => Err(SubscribeRefusal::NotImplemented {
+            what: "CONTROL_SPACE_FACS",
+        }),
+        Ok(v1::ControlSpace::Arkit) => Err(SubscribeRefusal::NotImplemented {
+            what: "CONTROL_SPACE_ARKIT",
+        }),
+        Err(_unknown) => {
+            Err(FieldError::new("control_space", FieldProblem::UnknownEnum(number)).into())
+        }
+    }
+}
+
+fn delivery(sent: &v1::SubscribeStart, can_return_credits: bool) -> Result<Delivery, FieldError> {
+    match v1::Delivery::try_from(sent.delivery) {
+        Ok(v1::Delivery::Unspecified | v1::Delivery::Latest) => Ok(Delivery::Latest {
+            credits: (can_return_credits && sent.credits > 0).then_some(sent.credits),
+            max_rate_hz: max_rate_hz(sent.max_rate_hz)?,
+        }),
+        Ok(v1::Delivery::EveryFrame) => Ok(Delivery::EveryFrame(match sent.from_sequence {
+            _ if sent.from_oldest => StartAt::Oldest,
+            0 => StartAt::Now,
+            sequence => StartAt::Sequence(sequence),
+        })),
+        Err(_unknown) => Err(FieldError::new(
+            "delivery",
+            FieldProblem::UnknownEnum(sent.delivery),
+        )),
+    }
+}
+
+fn max_rate_hz(sent: f32) -> Result<Option<f64>, FieldError> {
+    if sent.is_finite() && sent >= 0.0 {
+        return Ok((sent > 0.0).then_some(f64::from(sent)));
+    }
+    let detail = "the rate must be finite and not negative";
+    Err(FieldError::unusable("max_rate_hz", "RATE", detail))
+}
+
+/// The first response: what the samples that follow mean.
+pub fn header(
+    session: &SessionHandle,
+    server_time_nanos: i64,
+    unix_offset_nanos: i64,
+) -> v1::CurveHeader {
+    let actor = session.actor();
+    let upper = if session.settings().marker.allow_exaggeration {
+        2.0
+    } else {
+        1.0
+    };
+    let muscles = actor.muscle_set().muscles().iter();
+    let control = |muscle: &frontalis_analysis::face::muscle::Muscle| v1::Control {
+        name: muscle.name.clone(),
+        region: common::face_region(muscle.region).into(),
+        driven: true,
+        lower: 0.0,
+        upper,
+    };
+    v1::CurveHeader {
+        session: session.id().resource(),
+        actor: session.actor_id().resource(),
+        muscle_set: actor.muscle_set().id().to_owned(),
+        actor_revision: session.actor_revision(),
+        controls: muscles.map(control).collect(),
+        nominal_rate_hz: session.nominal_rate_hz(),
+        server_time_nanos,
+        run: session.run(),
+        unix_offset_nanos,
+    }
+}
+
+/// Samples, gaps and state of one response.
+pub fn update_to_wire(update: &Update, detail: SampleDetail) -> v1::SubscribeResponse {
+    let samples = update.samples.iter();
+    v1::SubscribeResponse {
+        samples: samples.map(|it| sample_to_wire(it, detail)).collect(),
+        skipped_samples: update.skipped_samples,
+        gaps: update.gaps.iter().map(gap_to_wire).collect(),
+        state: update.state.as_ref().map(state_to_wire),
+        ..v1::SubscribeResponse::default()
+    }
+}
+
+/// The last response of a session that ended.
+pub fn end_to_wire(reason: String, last_frame: u64, skipped_samples: u64) -> v1::SubscribeResponse {
+    v1::SubscribeResponse {
+        end: Some(v1::CurveEnd { reason, last_frame }),
+        skipped_samples,
+        ..v1::SubscribeResponse::default()
+    }
+}
+
+fn state_to_wire(state: &StreamState) -> v1::StreamState {
+    v1::StreamState {
+        session_state: common::session_state(state.session_state).into(),
+        last_frame_age_micros: state.last_frame_age_nanos.unsigned_abs() / 1_000,
+    }
+}
+
+/// A gap on the wire.
+pub fn gap_to_wire(gap: &Gap) -> v1::Gap {
+    let cause = match gap.cause {
+        GapCause::CaptureSkip => v1::GapCause::CaptureSkip,
+        GapCause::Rejected => v1::GapCause::Rejected,
+        GapCause::Shed => v1::GapCause::Shed,
+        GapCause::PublisherChange => v1::GapCause::PublisherChange,
+        GapCause::NotAligned => v1::GapCause::NotAligned,
+    };
+    v1::Gap {
+        first: gap.first,
+        last: gap.last,
+        cause: cause.into(),
+    }
+}
+
+/// A sample on the wire.
+pub fn sample_to_wire(published: &PublishedSample, detail: SampleDetail) -> v1::CurveSample {
+    let PublishedSample {
+        sample,
+        tag,
+        sequence,
+        solved_time_nanos,
+        actor_revision,
+    } = published;
+    let mut wire = v1::CurveSample {
+        frame: sample.frame.0,
+        capture_time_nanos: sample.capture_time_nanos,
+        timecode: tag.timecode.as_ref().map(common::timecode_to_wire),
+        activations: sample.activations.iter().map(|it| to_f32(*it)).collect(),
+        region_errors: sample.regions.iter().map(region_to_wire).collect(),
+        head: sample.head.as_ref().map(common::head_pose),
+        quality: quality(sample.quality).into(),
+        solved_time_nanos: *solved_time_nanos,
+        actor_revision: *actor_revision,
+        sequence: *sequence,
+        held_frames: sample.held_frames,
+        source_frame: tag.source_frame,
+        unobserved: indices(&sample.unobserved),
+        ..v1::CurveSample::default()
+    };
+    if tag.time_non_monotonic {
+        wire.flags.push(v1::SampleFlag::TimeNonMonotonic.into());
+    }
+    if tag.timecode_invalid {
+        wire.flags.push(v1::SampleFlag::TimecodeInvalid.into());
+    }
+    if detail.with_markers {
+        add_markers(sample, &mut wire);
+    }
+    wire
+}
+
+fn add_markers(sample: &CurveSample, wire: &mut v1::CurveSample) {
+    let trace = &sample.markers;
+    wire.observed_cm.clone_from(&trace.observed_cm);
+    wire.reproduced_cm.clone_from(&trace.reproduced_cm);
+    wire.observed_markers = indices(&trace.markers);
+}
+
+/// Indices of muscles and markers, of which there are far fewer than 2^32.
+fn indices(indices: &[usize]) -> Vec<u32> {
+    let index = |it: &usize| u32::try_from(*it).unwrap_or(u32::MAX);
+    indices.iter().map(index).collect()
+}
+
+fn region_to_wire(report: &RegionReport) -> v1::RegionError {
+    v1::RegionError {
+        region: common::face_region(report.region).into(),
+        marker_error_cm: to_f32(report.marker_error_cm),
+        n_markers: u32::try_from(report.n_markers).unwrap_or(u32::MAX),
+        quality: quality(report.quality).into(),
+        held_reason: report
+            .held_reason
+            .map_or_else(String::new, |it: HeldReason| it.identifier().to_owned()),
+        quality_fraction: to_f32(report.quality_fraction),
+    }
+}
+
+fn quality(quality: Quality) -> v1::Quality {
+    match quality {
+        Quality::Solved => v1::Quality::Solved,
+        Quality::Partial => v1::Quality::Partial,
+        Quality::Held => v1::Quality::Held,
+    }
+}
+
+/// The bounds 0, 1 and 2 are exact in f32, so rounding keeps a value inside its box.
+#[expect(clippy::cast_possible_truncation, reason = "the wire has f32")]
+fn to_f32(value: f64) -> f32 {
+    value as f32
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn a_start() -> v1::SubscribeStart {
+        v1::SubscribeStart {
+            session: "sessions/one".to_owned(),
+            ..v1::SubscribeStart::default()
+        }
+    }
+
+    fn delivery_of(sent: v1::SubscribeStart) -> Delivery {
+        start(sent, "peer".to_owned(), true).unwrap().spec.delivery
+    }
+
+    #[test]
+    fn latest_is_the_default_and_zero_credits_are_none() {
+        let uncontrolled = Delivery::Latest {
+            credits: None,
+            max_rate_hz: None,
+        };
+        assert_eq!(delivery_of(a_start()), uncontrolled);
+        let sent = v1::SubscribeStart {
+            credits: 3,
+            max_rate_hz: 60.0,
+            ..a_start()
+        };
+        let controlled = Delivery::Latest {
+            credits: Some(3),
+            max_rate_hz: Some(60.0),
+        };
+        assert_eq!(delivery_of(sent.clone()), controlled);
+        let followed = start(sent, String::new(), false).unwrap().spec.delivery;
+        assert_eq!(
+            followed,
+            Delivery::Latest {
+                credits: None,
+                max_rate_hz: Some(60.0)
+            }
+        );
+    }
+
+    #[test]
+    fn every_frame_starts_where_it_is_told() {
+        let every = |from_sequence, from_oldest| {
+            let delivery = v1::Delivery::EveryFrame.into();
+            delivery_of(v1::SubscribeStart {
+                delivery,
+                from_sequence,
+                from_oldest,
+                ..a_start()
+            })
+        };
+        assert_eq!(every(0, false), Delivery::EveryFrame(StartAt::Now));
+        assert_eq!(every(5, false), Delivery::EveryFrame(StartAt::Sequence(5)));
+        assert_eq!(every(0, true), Delivery::EveryFrame(StartAt::Oldest));
+    }
+
+    #[test]
+    fn what_this_version_does_not_do_is_said() {
+        let check = |sent| {
+            let refusal = start(sent, String::new(), true).unwrap_err();
+            assert!(matches!(refusal, SubscribeRefusal::NotImplemented { .. }));
+        };
+        check(v1::SubscribeStart {
+            control_space: 2,
+            ..a_start()
+        });
+        check(v1::SubscribeStart {
+            control_space: 3,
+            ..a_start()
+        });
+        check(v1::SubscribeStart {
+            with_uncertainty: true,
+            ..a_start()
+        });
+    }
+
+    #[test]
+    fn a_subscriber_without_a_name_goes_by_its_peer() {
+        assert_eq!(
+            start(a_start(), "[::1]:9".to_owned(), true)
+                .unwrap()
+                .spec
+                .name,
+            "[::1]:9"
+        );
+        let named = v1::SubscribeStart {
+            subscriber: "wall".to_owned(),
+            ..a_start()
+        };
+        assert_eq!(start(named, String::new(), true).unwrap().spec.name, "wall");
+    }
+
+    #[test]
+    fn a_wrong_field_is_named() {
+        let check = |sent, reason: &str| match start(sent, String::new(), true) {
+            Err(SubscribeRefusal::Invalid(it)) => assert_eq!(it.reason(), reason),
+            other => panic!("{other:?}"),
+        };
+        check(
+            v1::SubscribeStart {
+                session: "x".to_owned(),
+                ..a_start()
+            },
+            "NAME",
+        );
+        check(
+            v1::SubscribeStart {
+                subscriber: "a\nb".to_owned(),
+                ..a_start()
+            },
+            "NAME",
+        );
+        check(
+            v1::SubscribeStart {
+                delivery: 9,
+                ..a_start()
+            },
+            "ENUM",
+        );
+        check(
+            v1::SubscribeStart {
+                max_rate_hz: f32::NAN,
+                ..a_start()
+            },
+            "RATE",
+        );
+        check(
+            v1::SubscribeStart {
+                max_rate_hz: -1.0,
+                ..a_start()
+            },
+            "RATE",
+        );
+    }
+}

@@ -45,6 +45,14 @@ pub enum FieldProblem {
         /// Its place in the mask, from 0.
         index: usize,
     },
+    /// Anything else that a stream's first message may have wrong.
+    #[error("{detail}")]
+    Unusable {
+        /// The identifier on the wire.
+        reason: &'static str,
+        /// What is wrong, without repeating what was sent.
+        detail: String,
+    },
     /// A page token that this server did not make.
     #[error("is not a token that this server made")]
     PageToken,
@@ -54,6 +62,12 @@ impl FieldError {
     /// A refused field.
     pub fn new(field: &'static str, problem: FieldProblem) -> Self {
         Self { field, problem }
+    }
+
+    /// A field with its reason, and what is wrong with it.
+    pub fn unusable(field: &'static str, reason: &'static str, detail: impl Into<String>) -> Self {
+        let detail = detail.into();
+        Self::new(field, FieldProblem::Unusable { reason, detail })
     }
 
     /// Names the field of a refused name.
@@ -81,6 +95,7 @@ impl FieldError {
             FieldProblem::NotImplemented => "NOT_IMPLEMENTED",
             FieldProblem::UnknownPath { .. } => "FIELD_MASK",
             FieldProblem::PageToken => "PAGE_TOKEN",
+            FieldProblem::Unusable { reason, .. } => reason,
         }
     }
 }

@@ -1,22 +1,86 @@
-//! `CaptureService`: frames in.
+//! `CaptureService`: frames in, watermarks out.
+//!
+//! A stream is a state machine that is polled by its connection: no task of its own, and gone when the connection is.
+//! It reads a message only when the frames of the one before are taken, so that a full queue is back-pressure.
 
-use std::pin::Pin;
+use std::{pin::Pin, time::Duration};
 
 use frontalis_proto::v1::{self, capture_service_server::CaptureService};
-use futures::Stream;
-use tonic::{Request, Response, Status, Streaming};
+use futures::{Stream, StreamExt as _, stream};
+use tokio::time::{Instant, sleep_until, timeout};
+use tonic::{Code, Request, Response, Status, Streaming};
 
-use super::actors::not_built;
-use crate::{catalogue::Store, clock::ServerClock, session::SessionRegistry};
+use super::status::refuse;
+use crate::{
+    catalogue::Store,
+    clock::ServerClock,
+    session::{
+        Grant, Granted, IncomingFrame, Offer, Publication, PublishEnd, SessionRegistry, Wait,
+    },
+    wire::capture::{self as wire, MAX_FRAMES_PER_MESSAGE},
+};
+
+/// Frames after which a response is sent (CONTRACTS D-5).
+const FRAMES_PER_RESPONSE: u32 = 32;
+/// Time after which a response is sent; below the promised 50 ms, so that a timer that fires late keeps the promise.
+const RESPONSE_DELAY: Duration = Duration::from_millis(40);
+/// How long a stream may wait for its first message.
+const START_TIMEOUT: Duration = Duration::from_secs(10);
+/// Rejections in one response; the rest follow in the next.
+const REJECTIONS_PER_RESPONSE: usize = 256;
 
 /// The service; cheap to clone.
 #[derive(Clone)]
-pub struct CaptureGrpc;
+pub struct CaptureGrpc {
+    registry: SessionRegistry,
+    store: Store,
+    clock: ServerClock,
+}
 
 impl CaptureGrpc {
-    /// Publishes into the sessions of `registry`.
-    pub fn new(_registry: SessionRegistry, _store: Store, _clock: ServerClock) -> Self {
-        Self
+    /// Publishes into the sessions of `registry`; epochs are made durable in `store` before they are granted.
+    pub fn new(registry: SessionRegistry, store: Store, clock: ServerClock) -> Self {
+        Self {
+            registry,
+            store,
+            clock,
+        }
+    }
+
+    fn publish<S>(&self, requests: S) -> Responses
+    where
+        S: Stream<Item = Result<v1::PublishMarkersRequest, Status>> + Send + Unpin + 'static,
+    {
+        let publishing = Publishing {
+            service: self.clone(),
+            requests,
+            phase: Phase::Opening,
+        };
+        let responses = stream::unfold(publishing, |mut publishing| async {
+            let response = publishing.next().await?;
+            Some((response, publishing))
+        });
+        Box::pin(responses)
+    }
+
+    async fn open(&self, sent: v1::PublishStart) -> Result<Publication, Status> {
+        if sent.image.is_some() {
+            return Err(not_implemented());
+        }
+        let start = wire::start(sent)?;
+        let session = self.registry.get(&start.session)?;
+        session.check_claim(&start.publisher, start.takeover)?;
+        let epoch = self.store.next_epoch(&start.session).await?;
+        let publication = session.grant(Grant {
+            publisher: start.publisher,
+            takeover: start.takeover,
+            epoch,
+            unit: start.unit,
+            marker_names: start.marker_names,
+            ingest: start.ingest,
+            rate_hz: start.rate_hz,
+        })?;
+        Ok(publication)
     }
 }
 
@@ -28,9 +92,9 @@ impl CaptureService for CaptureGrpc {
 
     async fn publish_markers(
         &self,
-        _request: Request<Streaming<v1::PublishMarkersRequest>>,
+        request: Request<Streaming<v1::PublishMarkersRequest>>,
     ) -> Result<Response<Responses>, Status> {
-        Err(not_built("PublishMarkers"))
+        Ok(Response::new(self.publish(request.into_inner())))
     }
 
     type PublishImagesStream = Responses;
@@ -39,6 +103,260 @@ impl CaptureService for CaptureGrpc {
         &self,
         _request: Request<Streaming<v1::PublishImagesRequest>>,
     ) -> Result<Response<Responses>, Status> {
-        Err(not_built("PublishImages"))
+        Err(not_implemented())
+    }
+}
+
+fn not_implemented() -> Status {
+    let message = "this server takes markers, no images";
+    refuse(Code::Unimplemented, "NOT_IMPLEMENTED", message)
+}
+
+fn protocol_order(message: &str) -> Status {
+    refuse(Code::FailedPrecondition, "PROTOCOL_ORDER", message)
+}
+
+/// One publisher's stream.
+struct Publishing<S> {
+    service: CaptureGrpc,
+    requests: S,
+    phase: Phase,
+}
+
+enum Phase {
+    Opening,
+    Flowing(Box<Flow>),
+    Over,
+}
+
+impl<S> Publishing<S>
+where
+    S: Stream<Item = Result<v1::PublishMarkersRequest, Status>> + Unpin,
+{
+    async fn next(&mut self) -> Option<Result<v1::PublishResponse, Status>> {
+        let response = match &mut self.phase {
+            Phase::Opening => self.open().await.map(Some),
+            Phase::Flowing(flow) => flow.next(&mut self.requests).await,
+            Phase::Over => return None,
+        };
+        if !matches!(response, Ok(Some(_))) {
+            self.phase = Phase::Over;
+        }
+        response.transpose()
+    }
+
+    async fn open(&mut self) -> Result<v1::PublishResponse, Status> {
+        let first = timeout(START_TIMEOUT, self.requests.next()).await;
+        let first = first.map_err(|_elapsed| {
+            let message = "no start within 10 s";
+            refuse(Code::DeadlineExceeded, "START_TIMEOUT", message)
+        })?;
+        let request =
+            first.ok_or_else(|| protocol_order("the stream ended before its start"))??;
+        let missing = || protocol_order("the first message must be start");
+        let publication = self
+            .service
+            .open(request.start.ok_or_else(missing)?)
+            .await?;
+        let mut flow = Flow::new(publication, self.service.clock);
+        flow.take_frames(request.frames)?;
+        let started = started(flow.publication.granted());
+        let mut response = flow.response();
+        response.started = Some(started);
+        self.phase = Phase::Flowing(Box::new(flow));
+        Ok(response)
+    }
+}
+
+fn started(granted: &Granted) -> v1::PublishStarted {
+    v1::PublishStarted {
+        epoch: granted.epoch,
+        next_expected: granted.next_expected,
+        durable_through: 0,
+        run: granted.run,
+    }
+}
+
+/// A publication in force.
+struct Flow {
+    publication: Publication,
+    clock: ServerClock,
+    /// Frames of the newest message that were not offered yet.
+    waiting: std::vec::IntoIter<v1::MarkerFrame>,
+    /// The frame that the session cannot take yet.
+    held: Option<(IncomingFrame, Wait)>,
+    rejected: Vec<v1::RejectedFrame>,
+    n_unanswered: u32,
+    respond_at: Option<Instant>,
+    /// The client closed its side.
+    is_closing: bool,
+    /// The last response is on its way; this follows.
+    end: Option<Result<(), Status>>,
+}
+
+impl Flow {
+    fn new(publication: Publication, clock: ServerClock) -> Self {
+        Self {
+            publication,
+            clock,
+            waiting: Vec::new().into_iter(),
+            held: None,
+            rejected: Vec::new(),
+            n_unanswered: 0,
+            respond_at: None,
+            is_closing: false,
+            end: None,
+        }
+    }
+
+    /// The next response; `None` when the stream ended well.
+    async fn next<S>(&mut self, requests: &mut S) -> Result<Option<v1::PublishResponse>, Status>
+    where
+        S: Stream<Item = Result<v1::PublishMarkersRequest, Status>> + Unpin,
+    {
+        loop {
+            if !self.rejected.is_empty() && self.end.is_some() {
+                return Ok(Some(self.response()));
+            }
+            if let Some(end) = self.end.take() {
+                return end.map(|()| None);
+            }
+            match self.offer_frames() {
+                Err(end) => return Ok(Some(self.last_response(Err(end.into())))),
+                Ok(()) if self.must_respond() => return Ok(Some(self.response())),
+                Ok(()) if self.is_closing && self.publication.is_finished() => {
+                    return Ok(Some(self.last_response(Ok(()))));
+                }
+                Ok(()) => {}
+            }
+            if let Err(status) = self.wait(requests).await {
+                return Ok(Some(self.last_response(Err(status))));
+            }
+        }
+    }
+
+    /// Offers what waits until a response is due, or the session has no room.
+    fn offer_frames(&mut self) -> Result<(), PublishEnd> {
+        let offered = self.offer_until_held();
+        let late = self.publication.take_rejections().into_iter();
+        self.rejected.extend(late.map(wire::rejection_to_wire));
+        // A released publication has no lease to check; it ends by its mailbox.
+        offered.and_then(|()| self.publication.check())
+    }
+
+    fn offer_until_held(&mut self) -> Result<(), PublishEnd> {
+        if let Some((frame, _)) = self.held.take() {
+            self.offer(frame)?;
+        }
+        while self.held.is_none() && self.n_unanswered < FRAMES_PER_RESPONSE {
+            let Some(sent) = self.waiting.next() else {
+                break;
+            };
+            match wire::frame(&sent, &self.publication.granted().shape) {
+                Ok(frame) => self.offer(frame)?,
+                Err(rejection) => {
+                    let answer = self.publication.refuse(rejection)?;
+                    self.note(answer);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    fn offer(&mut self, frame: IncomingFrame) -> Result<(), PublishEnd> {
+        let answer = self.publication.offer(frame)?;
+        self.note(answer);
+        Ok(())
+    }
+
+    fn note(&mut self, answer: Offer) {
+        match answer {
+            Offer::Wait(frame, wait) => self.held = Some((frame, wait)),
+            Offer::Taken => self.n_unanswered += 1,
+            Offer::Rejected(rejection) => {
+                self.n_unanswered += 1;
+                self.rejected.push(wire::rejection_to_wire(rejection));
+            }
+        }
+    }
+
+    fn must_respond(&self) -> bool {
+        self.n_unanswered >= FRAMES_PER_RESPONSE
+            || self.rejected.len() >= REJECTIONS_PER_RESPONSE
+            || self.respond_at.is_some_and(|it| it <= Instant::now())
+    }
+
+    fn response(&mut self) -> v1::PublishResponse {
+        self.n_unanswered = 0;
+        // What was not offered yet is answered within the same promise.
+        let unoffered = self.held.is_some() || self.waiting.len() > 0;
+        self.respond_at = unoffered.then(|| Instant::now() + RESPONSE_DELAY);
+        let watermarks = self.publication.watermarks();
+        let n_rejected = self.rejected.len().min(REJECTIONS_PER_RESPONSE);
+        v1::PublishResponse {
+            started: None,
+            accepted_through: watermarks.accepted_through,
+            durable_through: watermarks.durable_through,
+            rejected: self.rejected.drain(..n_rejected).collect(),
+            shed_frames: watermarks.shed_frames,
+            server_send_nanos: self.clock.now_nanos(),
+            recording: false,
+        }
+    }
+
+    fn last_response(&mut self, end: Result<(), Status>) -> v1::PublishResponse {
+        self.end = Some(end);
+        self.waiting = Vec::new().into_iter();
+        self.held = None;
+        self.response()
+    }
+
+    /// Waits for anything that `next` looks at.
+    async fn wait<S>(&mut self, requests: &mut S) -> Result<(), Status>
+    where
+        S: Stream<Item = Result<v1::PublishMarkersRequest, Status>> + Unpin,
+    {
+        let may_read = self.held.is_none() && self.waiting.len() == 0 && !self.is_closing;
+        let retry_at = match &self.held {
+            Some((_, Wait::Until(at))) => Some(*at),
+            _ => None,
+        };
+        let wake_at = [self.respond_at, retry_at].into_iter().flatten().min();
+        tokio::select! {
+            request = requests.next(), if may_read => match request {
+                Some(request) => self.receive(request?)?,
+                None => {
+                    self.publication.release();
+                    self.is_closing = true;
+                }
+            },
+            () = self.publication.woken() => {}
+            () = sleep_until(wake_at.unwrap_or_else(Instant::now)), if wake_at.is_some() => {}
+        }
+        Ok(())
+    }
+
+    fn receive(&mut self, request: v1::PublishMarkersRequest) -> Result<(), Status> {
+        if request.start.is_some() {
+            self.publication.release();
+            return Err(protocol_order("start was sent twice"));
+        }
+        self.take_frames(request.frames)
+    }
+
+    fn take_frames(&mut self, frames: Vec<v1::MarkerFrame>) -> Result<(), Status> {
+        if frames.len() > MAX_FRAMES_PER_MESSAGE {
+            self.publication.release();
+            let message = format!(
+                "{} frames in a message, at most {MAX_FRAMES_PER_MESSAGE} are taken",
+                frames.len()
+            );
+            return Err(refuse(Code::InvalidArgument, "FRAME_COUNT", message));
+        }
+        self.publication.keep_alive()?;
+        self.waiting = frames.into_iter();
+        self.respond_at
+            .get_or_insert_with(|| Instant::now() + RESPONSE_DELAY);
+        Ok(())
     }
 }

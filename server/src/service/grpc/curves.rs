@@ -1,22 +1,81 @@
 //! `CurveService`: curves out.
+//!
+//! A stream pulls from its subscription when its connection has room, so that nothing is queued for a subscriber that
+//! does not read (CONTRACTS D-14, D-19). It has no task of its own, and frees its place when it is dropped.
 
-use std::pin::Pin;
+use std::{pin::Pin, time::Duration};
 
 use frontalis_proto::v1::{self, curve_service_server::CurveService};
-use futures::Stream;
-use tonic::{Request, Response, Status, Streaming};
+use futures::{Stream, StreamExt as _, stream};
+use tokio::time::timeout;
+use tonic::{Code, Request, Response, Status, Streaming};
 
-use super::actors::not_built;
-use crate::{clock::ServerClock, session::SessionRegistry};
+use super::{ending, status::refuse};
+use crate::{
+    clock::ServerClock,
+    hub::{Closing, Delivered, Subscription},
+    session::{SessionError, SessionRegistry},
+    wire::curve::{self as wire, SampleDetail},
+};
+
+/// How long a stream may wait for its first message.
+const START_TIMEOUT: Duration = Duration::from_secs(10);
 
 /// The service; cheap to clone.
 #[derive(Clone)]
-pub struct CurvesGrpc;
+pub struct CurvesGrpc {
+    registry: SessionRegistry,
+    clock: ServerClock,
+}
 
 impl CurvesGrpc {
     /// Serves the sessions of `registry`.
-    pub fn new(_registry: SessionRegistry, _clock: ServerClock) -> Self {
-        Self
+    pub fn new(registry: SessionRegistry, clock: ServerClock) -> Self {
+        Self { registry, clock }
+    }
+
+    fn responses<S>(&self, grants: S, phase: Phase, peer: String) -> Responses
+    where
+        S: Stream<Item = Result<v1::SubscribeRequest, Status>> + Send + Unpin + 'static,
+    {
+        let following = Following {
+            service: self.clone(),
+            grants,
+            phase,
+            peer,
+        };
+        let responses = stream::unfold(following, |mut following| async {
+            let response = following.next().await?;
+            Some((response, following))
+        });
+        Box::pin(responses)
+    }
+
+    /// The subscription, and the header that comes first.
+    fn open(
+        &self,
+        sent: v1::SubscribeStart,
+        peer: String,
+        can_return_credits: bool,
+    ) -> Result<(Flow, v1::SubscribeResponse), Status> {
+        let request = wire::start(sent, peer, can_return_credits)?;
+        let session = self.registry.get(&request.session)?;
+        let subscription = session.hub().subscribe(request.spec)?;
+        let header = wire::header(
+            &session,
+            self.clock.now_nanos(),
+            self.clock.unix_offset_nanos(),
+        );
+        let flow = Flow {
+            subscription,
+            detail: request.detail,
+            may_grant: can_return_credits,
+        };
+        let response = v1::SubscribeResponse {
+            header: Some(header),
+            ..v1::SubscribeResponse::default()
+        };
+        Ok((flow, response))
     }
 }
 
@@ -28,17 +87,146 @@ impl CurveService for CurvesGrpc {
 
     async fn subscribe(
         &self,
-        _request: Request<Streaming<v1::SubscribeRequest>>,
+        request: Request<Streaming<v1::SubscribeRequest>>,
     ) -> Result<Response<Responses>, Status> {
-        Err(not_built("Subscribe"))
+        let peer = peer_of(&request);
+        let responses = self.responses(request.into_inner(), Phase::Opening, peer);
+        Ok(Response::new(responses))
     }
 
     type FollowStream = Responses;
 
     async fn follow(
         &self,
-        _request: Request<v1::SubscribeStart>,
+        request: Request<v1::SubscribeStart>,
     ) -> Result<Response<Responses>, Status> {
-        Err(not_built("Follow"))
+        let peer = peer_of(&request);
+        let (flow, header) = self.open(request.into_inner(), peer.clone(), false)?;
+        let phase = Phase::Opened(Box::new(flow), Box::new(header));
+        let responses = self.responses(stream::pending(), phase, peer);
+        Ok(Response::new(responses))
+    }
+}
+
+fn peer_of<T>(request: &Request<T>) -> String {
+    let address = request.remote_addr();
+    address.map_or_else(|| "unnamed".to_owned(), |it| it.to_string())
+}
+
+/// One subscriber's stream.
+struct Following<S> {
+    service: CurvesGrpc,
+    grants: S,
+    phase: Phase,
+    peer: String,
+}
+
+enum Phase {
+    Opening,
+    /// The header is still to be sent.
+    Opened(Box<Flow>, Box<v1::SubscribeResponse>),
+    Flowing(Box<Flow>),
+    Over,
+}
+
+struct Flow {
+    subscription: Subscription,
+    detail: SampleDetail,
+    /// Whether the client's side is open.
+    may_grant: bool,
+}
+
+impl<S> Following<S>
+where
+    S: Stream<Item = Result<v1::SubscribeRequest, Status>> + Unpin,
+{
+    async fn next(&mut self) -> Option<Result<v1::SubscribeResponse, Status>> {
+        let response = match std::mem::replace(&mut self.phase, Phase::Over) {
+            Phase::Opening => match self.start().await {
+                Ok((flow, header)) => {
+                    self.phase = Phase::Flowing(Box::new(flow));
+                    Ok(header)
+                }
+                Err(status) => Err(status),
+            },
+            Phase::Opened(flow, header) => {
+                self.phase = Phase::Flowing(flow);
+                Ok(*header)
+            }
+            Phase::Flowing(mut flow) => {
+                let response = flow.next(&mut self.grants).await;
+                let is_last = response.as_ref().map_or(true, |it| it.end.is_some());
+                if !is_last {
+                    self.phase = Phase::Flowing(flow);
+                }
+                response
+            }
+            Phase::Over => return None,
+        };
+        Some(response)
+    }
+
+    async fn start(&mut self) -> Result<(Flow, v1::SubscribeResponse), Status> {
+        let out_of_order =
+            |message: &str| refuse(Code::FailedPrecondition, "PROTOCOL_ORDER", message);
+        let first = timeout(START_TIMEOUT, self.grants.next()).await;
+        let first = first.map_err(|_elapsed| {
+            refuse(
+                Code::DeadlineExceeded,
+                "START_TIMEOUT",
+                "no start within 10 s",
+            )
+        })?;
+        let request = first.ok_or_else(|| out_of_order("the stream ended before its start"))??;
+        let start = request
+            .start
+            .ok_or_else(|| out_of_order("the first message must be start"))?;
+        self.service.open(start, self.peer.clone(), true)
+    }
+}
+
+impl Flow {
+    async fn next<S>(&mut self, grants: &mut S) -> Result<v1::SubscribeResponse, Status>
+    where
+        S: Stream<Item = Result<v1::SubscribeRequest, Status>> + Unpin,
+    {
+        loop {
+            tokio::select! {
+                // Returned credits first: they decide what may be sent.
+                biased;
+                grant = grants.next(), if self.may_grant => self.receive(grant)?,
+                delivered = self.subscription.next() => return self.respond(delivered),
+            }
+        }
+    }
+
+    fn receive(
+        &mut self,
+        grant: Option<Result<v1::SubscribeRequest, Status>>,
+    ) -> Result<(), Status> {
+        // A client that closed its side goes on to read what its credits allow.
+        let Some(request) = grant else {
+            self.may_grant = false;
+            return Ok(());
+        };
+        let request = request?;
+        if request.start.is_some() {
+            let message = "start was sent twice";
+            return Err(refuse(Code::FailedPrecondition, "PROTOCOL_ORDER", message));
+        }
+        self.subscription.grant(request.credits);
+        Ok(())
+    }
+
+    fn respond(&self, delivered: Delivered) -> Result<v1::SubscribeResponse, Status> {
+        match delivered {
+            Delivered::Update(update) => Ok(wire::update_to_wire(&update, self.detail)),
+            Delivered::Lagged(lost) => Err(ending::lagged(&lost)),
+            Delivered::Closed(Closing::Draining) => Err(SessionError::Draining.into()),
+            Delivered::Closed(Closing::Ended { reason, last_frame }) => {
+                let skipped_samples = self.subscription.skipped_samples();
+                Ok(wire::end_to_wire(reason, last_frame, skipped_samples))
+            }
+        }
     }
 }

@@ -26,6 +26,7 @@ impl From<FieldError> for Status {
             | FieldProblem::Range { .. }
             | FieldProblem::Duration { .. }
             | FieldProblem::UnknownPath { .. }
+            | FieldProblem::Unusable { .. }
             | FieldProblem::PageToken => Code::InvalidArgument,
         };
         Refusal::new(code, error.reason(), error.to_string())
