@@ -55,7 +55,7 @@ pub enum SubscribeRefusal {
 ///
 /// [`SubscribeRefusal`] names the first field that is wrong or not implemented.
 pub fn start(
-    sent: v1::SubscribeStart,
+    sent: &v1::SubscribeStart,
     peer: String,
     can_return_credits: bool,
 ) -> Result<SubscribeRequest, SubscribeRefusal> {
@@ -68,7 +68,7 @@ pub fn start(
             what: "with_uncertainty",
         });
     }
-    let delivery = delivery(&sent, can_return_credits)?;
+    let delivery = delivery(sent, can_return_credits)?;
     let name = name.into_string();
     Ok(SubscribeRequest {
         session,
@@ -291,7 +291,7 @@ mod tests {
     }
 
     fn delivery_of(sent: v1::SubscribeStart) -> Delivery {
-        start(sent, "peer".to_owned(), true).unwrap().spec.delivery
+        start(&sent, "peer".to_owned(), true).unwrap().spec.delivery
     }
 
     #[test]
@@ -311,7 +311,7 @@ mod tests {
             max_rate_hz: Some(60.0),
         };
         assert_eq!(delivery_of(sent.clone()), controlled);
-        let followed = start(sent, String::new(), false).unwrap().spec.delivery;
+        let followed = start(&sent, String::new(), false).unwrap().spec.delivery;
         assert_eq!(
             followed,
             Delivery::Latest {
@@ -340,7 +340,7 @@ mod tests {
     #[test]
     fn what_this_version_does_not_do_is_said() {
         let check = |sent| {
-            let refusal = start(sent, String::new(), true).unwrap_err();
+            let refusal = start(&sent, String::new(), true).unwrap_err();
             assert!(matches!(refusal, SubscribeRefusal::NotImplemented { .. }));
         };
         check(v1::SubscribeStart {
@@ -360,7 +360,7 @@ mod tests {
     #[test]
     fn a_subscriber_without_a_name_goes_by_its_peer() {
         assert_eq!(
-            start(a_start(), "[::1]:9".to_owned(), true)
+            start(&a_start(), "[::1]:9".to_owned(), true)
                 .unwrap()
                 .spec
                 .name,
@@ -370,12 +370,15 @@ mod tests {
             subscriber: "wall".to_owned(),
             ..a_start()
         };
-        assert_eq!(start(named, String::new(), true).unwrap().spec.name, "wall");
+        assert_eq!(
+            start(&named, String::new(), true).unwrap().spec.name,
+            "wall"
+        );
     }
 
     #[test]
     fn a_wrong_field_is_named() {
-        let check = |sent, reason: &str| match start(sent, String::new(), true) {
+        let check = |sent, reason: &str| match start(&sent, String::new(), true) {
             Err(SubscribeRefusal::Invalid(it)) => assert_eq!(it.reason(), reason),
             other => panic!("{other:?}"),
         };

@@ -323,13 +323,14 @@ impl Flow {
         };
         let wake_at = [self.respond_at, retry_at].into_iter().flatten().min();
         tokio::select! {
-            request = requests.next(), if may_read => match request {
-                Some(request) => self.receive(request?)?,
-                None => {
+            request = requests.next(), if may_read => {
+                if let Some(request) = request {
+                    self.receive(request?)?;
+                } else {
                     self.publication.release();
                     self.is_closing = true;
                 }
-            },
+            }
             () = self.publication.woken() => {}
             () = sleep_until(wake_at.unwrap_or_else(Instant::now)), if wake_at.is_some() => {}
         }

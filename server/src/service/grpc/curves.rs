@@ -54,7 +54,7 @@ impl CurvesGrpc {
     /// The subscription, and the header that comes first.
     fn open(
         &self,
-        sent: v1::SubscribeStart,
+        sent: &v1::SubscribeStart,
         peer: String,
         can_return_credits: bool,
     ) -> Result<(Flow, v1::SubscribeResponse), Status> {
@@ -101,7 +101,7 @@ impl CurveService for CurvesGrpc {
         request: Request<v1::SubscribeStart>,
     ) -> Result<Response<Responses>, Status> {
         let peer = peer_of(&request);
-        let (flow, header) = self.open(request.into_inner(), peer.clone(), false)?;
+        let (flow, header) = self.open(request.get_ref(), peer.clone(), false)?;
         let phase = Phase::Opened(Box::new(flow), Box::new(header));
         let responses = self.responses(stream::pending(), phase, peer);
         Ok(Response::new(responses))
@@ -181,7 +181,7 @@ where
         let start = request
             .start
             .ok_or_else(|| out_of_order("the first message must be start"))?;
-        self.service.open(start, self.peer.clone(), true)
+        self.service.open(&start, self.peer.clone(), true)
     }
 }
 
