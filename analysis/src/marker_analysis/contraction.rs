@@ -224,7 +224,7 @@ impl ContractionSolver {
     }
 
     fn solve_visible(&mut self, evidence: &Evidence) {
-        if evidence.is_degenerate(&self.model, &self.aligned) {
+        if evidence.is_degenerate(&self.aligned) {
             return self.hold_all(HeldReason::DegeneratePose);
         }
         self.decay_unobserved(evidence);
@@ -364,7 +364,9 @@ impl ContractionSolver {
         self.reproduced.copy_from_slice(&self.model.rest_by_rows);
         for (i, &x) in self.x.iter().enumerate() {
             if x != 0.0 {
-                for (p, d) in self.reproduced.iter_mut().zip(self.model.column(i)) {
+                let support = self.model.support[i].clone();
+                let column = &self.model.column(i)[support.clone()];
+                for (p, d) in self.reproduced[support].iter_mut().zip(column) {
                     *p += x * d;
                 }
             }

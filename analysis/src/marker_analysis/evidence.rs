@@ -55,7 +55,8 @@ pub(super) struct Evidence {
     pub gram: Vec<f64>,
     /// Σ dᵢⱼ over the used markers, one a muscle.
     pub displacement_sums: Vec<Vector3<f64>>,
-    rest_mean: Vector3<f64>,
+    /// Neutral markers about the mean of the used ones, one a marker.
+    rest_arms: Vec<Vector3<f64>>,
     /// Determinant of the scatter of the used neutral markers; 0 where they are flat.
     rest_volume: f64,
 }
@@ -79,7 +80,7 @@ impl Evidence {
             used,
             own_used,
             regions,
-            rest_mean,
+            rest_arms: model.rest.iter().map(|it| it - rest_mean).collect(),
             rest_volume,
         }
     }
@@ -93,10 +94,10 @@ impl Evidence {
     ///
     /// The determinant of the covariance with the neutral markers is that of a rotation times the neutral volume;
     /// expressions change it by a fraction, flat and mirrored sets make it vanish or turn its sign.
-    pub fn is_degenerate(&self, model: &MarkerModel, positions: &[Vector3<f64>]) -> bool {
+    pub fn is_degenerate(&self, positions: &[Vector3<f64>]) -> bool {
         let mut covariance = Matrix3::zeros();
         for &j in &self.used {
-            covariance += (model.rest[j] - self.rest_mean) * positions[j].transpose();
+            covariance += self.rest_arms[j] * positions[j].transpose();
         }
         let volume = covariance.determinant();
         self.rest_volume <= 0.0 || volume.is_nan() || volume < LEAST_VOLUME_SHARE * self.rest_volume

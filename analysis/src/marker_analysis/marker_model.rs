@@ -32,6 +32,8 @@ pub(super) struct MarkerModel {
     pub rows: Vec<f64>,
     /// D by columns: entry `muscle * 3 * n_markers + 3 * marker + axis`, centimeters.
     pub columns: Vec<f64>,
+    /// The coordinates that each muscle moves: all others of its column are 0.
+    pub support: Vec<Range<usize>>,
 }
 
 impl MarkerModel {
@@ -69,6 +71,7 @@ impl MarkerModel {
             rest,
             rows: vec![0.0; 3 * markers.len() * muscles.len()],
             columns: vec![0.0; 3 * markers.len() * muscles.len()],
+            support: Vec::new(),
             markers,
             muscles,
             own_markers,
@@ -76,6 +79,9 @@ impl MarkerModel {
             expected,
         };
         model.lay_out(&basis);
+        model.support = (0..model.n_muscles())
+            .map(|muscle| support(model.column(muscle)))
+            .collect();
         model
     }
 
@@ -130,6 +136,14 @@ impl MarkerModel {
             .sum();
         squared.sqrt()
     }
+}
+
+/// From the first to the last entry that is not 0.
+fn support(column: &[f64]) -> Range<usize> {
+    let moves = |it: &f64| *it != 0.0;
+    let start = column.iter().position(moves).unwrap_or(0);
+    let end = column.iter().rposition(moves).map_or(0, |it| it + 1);
+    start..end
 }
 
 /// The kept items sorted by region (`None` last), with the range of each region.

@@ -7,7 +7,10 @@
 //! Block pivoting may go in circles; the primal method takes over after a few steps and cannot: it walks towards the solution
 //! of the free unknowns, stops at the first bound in the way, and, once none is, releases the worst multiplier alone.
 
-use super::factor::{Factor, LANES, subtract_multiple};
+use super::factor::Factor;
+
+/// Columns of Q are padded to a multiple of this, so that short loops have no remainder.
+pub const LANES: usize = 4;
 
 /// How far, relative to the largest diagonal entry of Q, a multiplier may have the wrong sign in a solution.
 pub const MULTIPLIER_TOLERANCE: f64 = 1e-11;
@@ -40,8 +43,8 @@ pub struct BoxQp {
     upper: Vec<f64>,
     place: Vec<Place>,
     free: Vec<usize>,
-    /// The free set that `factor` belongs to; `None` when Q has changed since.
-    factored: Option<Vec<usize>>,
+    /// The free set that `factor` belongs to; empty when Q has changed since.
+    factored: Vec<usize>,
     factor: Factor,
     /// Solution of the free unknowns, in the order of `free`.
     target: Vec<f64>,
@@ -83,7 +86,7 @@ impl BoxQp {
             upper: vec![1.0; m],
             place: vec![Place::Lower; m],
             free: Vec::with_capacity(m),
-            factored: None,
+            factored: Vec::with_capacity(m),
             factor: Factor::with_capacity(m),
             target: vec![0.0; stride],
             remainder: vec![0.0; stride],
@@ -109,7 +112,7 @@ impl BoxQp {
     /// Replaces Q, m × m, symmetric: `fill` changes what is there, in full, columns [`BoxQp::stride`] apart.
     pub fn set_hessian(&mut self, fill: impl FnOnce(&mut [f64])) {
         fill(&mut self.hessian);
-        self.factored = None;
+        self.factored.clear();
         let diagonal = self.hessian.iter().step_by(self.stride + 1);
         self.largest_diagonal = diagonal.fold(0.0, |largest: f64, &it| largest.max(it));
     }
@@ -224,17 +227,23 @@ impl BoxQp {
         Ok(())
     }
 
-    /// Factors Q on the free unknowns, unless that is what the factor already holds.
+    /// Factors Q on the free unknowns, as far as the factor does not hold it already.
     fn refactor(&mut self) -> Result<(), BoxQpError> {
-        if self.factored.as_ref() == Some(&self.free) {
+        let same = |(old, new): &(&usize, &usize)| old == new;
+        let kept = self
+            .factored
+            .iter()
+            .zip(&self.free)
+            .take_while(same)
+            .count();
+        if kept == self.free.len() && kept == self.factored.len() {
             return Ok(());
         }
-        let mut factored = self.factored.take().unwrap_or_default();
+        self.factored.clear();
         self.factor
-            .factor(&self.hessian, self.stride, &self.free)
+            .factor(&self.hessian, self.stride, &self.free, kept)
             .map_err(|_| BoxQpError::NotConvex)?;
-        factored.clone_from(&self.free);
-        self.factored = Some(factored);
+        self.factored.extend_from_slice(&self.free);
         Ok(())
     }
 
@@ -307,5 +316,16 @@ impl BoxQp {
     fn kkt_residual(&self) -> f64 {
         let worst = (0..self.m).fold(0.0, |worst: f64, i| worst.max(self.violation(i)));
         worst / self.largest_diagonal.max(f64::MIN_POSITIVE)
+    }
+}
+
+/// `y -= a * x` for lengths that are multiples of [`LANES`].
+fn subtract_multiple(y: &mut [f64], a: f64, x: &[f64]) {
+    let (y, _) = y.as_chunks_mut::<LANES>();
+    let (x, _) = x.as_chunks::<LANES>();
+    for (y, x) in y.iter_mut().zip(x) {
+        for (y, x) in y.iter_mut().zip(x) {
+            *y -= a * x;
+        }
     }
 }

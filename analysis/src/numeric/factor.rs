@@ -1,32 +1,19 @@
 //! The factor of a principal submatrix, A = L D Lᵀ, in buffers that are kept between calls.
 //!
-//! Sized for the box QP: up to some sixty unknowns, factored once and solved often.
-//! No square roots, so that a column waits for one division only; inner loops run over contiguous blocks of [`LANES`], and
-//! sums have a fixed order: the result does not depend on the processor's instruction set.
-
-/// Columns are padded to a multiple of this, so that short loops have no remainder.
-pub const LANES: usize = 4;
-
-/// `y -= a * x` for lengths that are multiples of [`LANES`].
-pub(super) fn subtract_multiple(y: &mut [f64], a: f64, x: &[f64]) {
-    let (y, _) = y.as_chunks_mut::<LANES>();
-    let (x, _) = x.as_chunks::<LANES>();
-    for (y, x) in y.iter_mut().zip(x) {
-        for (y, x) in y.iter_mut().zip(x) {
-            *y -= a * x;
-        }
-    }
-}
+//! Sized for the box QP: a handful of free unknowns, up to some sixty, factored once and solved often.
+//! No square roots, so that a row waits for one division only. Rows are contiguous, and sums have a fixed order: the result
+//! does not depend on the processor's instruction set.
 
 /// A unit lower triangular factor and its diagonal, of at most `capacity` rows.
 #[derive(Clone, Debug)]
 pub struct Factor {
-    /// Distance of the columns: the capacity, padded.
-    stride: usize,
     n: usize,
-    /// Column-major L below its unit diagonal: column j starts at `j * stride`. Above the diagonal, anything.
-    columns: Vec<f64>,
+    capacity: usize,
+    /// Row-major L, its unit diagonal left out: row i starts at `i * capacity`.
+    rows: Vec<f64>,
     inverse_diagonal: Vec<f64>,
+    /// One row of L D.
+    scaled: Vec<f64>,
 }
 
 /// The matrix is not positive definite in floating point.
@@ -40,16 +27,18 @@ pub struct NotPositiveDefinite {
 impl Factor {
     /// Buffers for matrices of up to `capacity` rows.
     pub fn with_capacity(capacity: usize) -> Self {
-        let stride = capacity.next_multiple_of(LANES);
         Self {
-            stride,
             n: 0,
-            columns: vec![0.0; capacity * stride],
+            capacity,
+            rows: vec![0.0; capacity * capacity],
             inverse_diagonal: vec![0.0; capacity],
+            scaled: vec![0.0; capacity],
         }
     }
 
     /// Factors the rows and columns `indices` of the symmetric `matrix`, whose columns are `stride` apart.
+    ///
+    /// The first `kept` rows are known to be what they were in the last call: a row depends on those before it only.
     ///
     /// # Errors
     ///
@@ -59,85 +48,69 @@ impl Factor {
         matrix: &[f64],
         stride: usize,
         indices: &[usize],
+        kept: usize,
     ) -> Result<(), NotPositiveDefinite> {
         self.n = indices.len();
-        for (j, &source) in indices.iter().enumerate() {
-            let from = &matrix[source * stride..(source + 1) * stride];
-            let column = &mut self.columns[j * self.stride + j..j * self.stride + self.n];
-            for (entry, &i) in column.iter_mut().zip(&indices[j..]) {
-                *entry = from[i];
+        for (i, &source) in indices.iter().enumerate().skip(kept) {
+            let column = &matrix[source * stride..(source + 1) * stride];
+            let (done, row) = self.rows.split_at_mut(i * self.capacity);
+            let (row, scaled) = (&mut row[..i], &mut self.scaled[..i]);
+            let above = done.chunks_exact(self.capacity).zip(&self.inverse_diagonal);
+            for (j, ((above, inverse), &index)) in above.zip(indices).enumerate() {
+                let entry = column[index] - dot(&scaled[..j], &above[..j]);
+                scaled[j] = entry;
+                row[j] = entry * inverse;
             }
-        }
-        for j in 0..self.n {
-            self.eliminate(j)?;
-        }
-        Ok(())
-    }
-
-    /// Takes column j's share out of every later one, and scales it by its pivot.
-    fn eliminate(&mut self, j: usize) -> Result<(), NotPositiveDefinite> {
-        let end = self.n.next_multiple_of(LANES);
-        let (done, rest) = self.columns.split_at_mut((j + 1) * self.stride);
-        let column = &mut done[j * self.stride..j * self.stride + end];
-        let pivot = column[j];
-        if pivot.is_nan() || pivot <= 0.0 {
-            return Err(NotPositiveDefinite { pivot: j });
-        }
-        let inverse = 1.0 / pivot;
-        self.inverse_diagonal[j] = inverse;
-        let later = rest.chunks_exact_mut(self.stride).take(self.n - j - 1);
-        for (k, later) in (j + 1..).zip(later) {
-            let block = k - k % LANES;
-            subtract_multiple(
-                &mut later[block..end],
-                column[k] * inverse,
-                &column[block..],
-            );
-        }
-        for entry in &mut column[j + 1..] {
-            *entry *= inverse;
+            let pivot = column[source] - dot(scaled, row);
+            if pivot.is_nan() || pivot <= 0.0 {
+                return Err(NotPositiveDefinite { pivot: i });
+            }
+            self.inverse_diagonal[i] = 1.0 / pivot;
         }
         Ok(())
     }
 
-    /// Solves L D Lᵀ x = b in place; `b` has room for the padding.
+    /// Solves L D Lᵀ x = b in place.
     pub fn solve(&self, b: &mut [f64]) {
-        let n = self.n;
-        let end = n.next_multiple_of(LANES);
-        b[n..end].fill(0.0);
-        for j in 0..n {
-            let column = &self.columns[j * self.stride..j * self.stride + end];
-            let y = b[j];
-            // The block that holds the diagonal also holds entries above it: only those below count.
-            let block = (j + 1).next_multiple_of(LANES).min(end);
-            for i in j + 1..block {
-                b[i] -= y * column[i];
-            }
-            subtract_multiple(&mut b[block..end], y, &column[block..]);
+        let b = &mut b[..self.n];
+        let rows = || {
+            self.rows
+                .chunks_exact(self.capacity.max(1))
+                .take(self.n)
+                .enumerate()
+        };
+        for (i, row) in rows() {
+            b[i] -= dot(&row[..i], &b[..i]);
         }
-        for (it, inverse) in b.iter_mut().zip(&self.inverse_diagonal).take(n) {
+        for (it, inverse) in b.iter_mut().zip(&self.inverse_diagonal) {
             *it *= inverse;
         }
-        for j in (0..n).rev() {
-            let column = &self.columns[j * self.stride..j * self.stride + n];
-            b[j] -= dot(&column[j + 1..], &b[j + 1..n]);
+        for (i, row) in rows().rev() {
+            let (before, x) = b.split_at_mut(i);
+            for (t, l) in before.iter_mut().zip(row) {
+                *t -= x[0] * l;
+            }
         }
     }
 }
 
-/// Two sums side by side, so that an addition does not wait for the one before.
+/// Four sums side by side, so that an addition does not wait for the one before.
 fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let (mut even, mut odd) = (0.0, 0.0);
-    let (pairs_a, pairs_b) = (a.chunks_exact(2), b.chunks_exact(2));
-    let last = match (pairs_a.remainder(), pairs_b.remainder()) {
-        ([a], [b]) => a * b,
-        _ => 0.0,
-    };
-    for (a, b) in pairs_a.zip(pairs_b) {
-        even += a[0] * b[0];
-        odd += a[1] * b[1];
+    let ((blocks_a, rest_a), (blocks_b, rest_b)) = (a.as_chunks::<4>(), b.as_chunks::<4>());
+    let mut rest = 0.0;
+    for (a, b) in rest_a.iter().zip(rest_b) {
+        rest += a * b;
     }
-    even + odd + last
+    if blocks_a.is_empty() {
+        return rest;
+    }
+    let mut sums = [0.0; 4];
+    for (a, b) in blocks_a.iter().zip(blocks_b) {
+        for k in 0..4 {
+            sums[k] += a[k] * b[k];
+        }
+    }
+    (sums[0] + sums[1]) + (sums[2] + sums[3]) + rest
 }
 
 #[cfg(test)]
@@ -149,16 +122,30 @@ mod tests {
         // Rows 0 and 2 form [[4, 2], [2, 3]].
         let matrix = [4.0, 9.0, 2.0, 9.0, 7.0, 9.0, 2.0, 9.0, 3.0];
         let mut factor = Factor::with_capacity(3);
-        factor.factor(&matrix, 3, &[0, 2]).unwrap();
-        let mut b = [8.0, 7.0, 0.0, 0.0];
+        factor.factor(&matrix, 3, &[0, 2], 0).unwrap();
+        let mut b = [8.0, 7.0];
         factor.solve(&mut b);
         assert!((b[0] - 1.25).abs() < 1e-15 && (b[1] - 1.5).abs() < 1e-15);
     }
 
     #[test]
+    fn rows_that_are_kept_give_the_same_bits() {
+        let matrix = [4.0, 1.0, 2.0, 1.0, 7.0, 3.0, 2.0, 3.0, 5.0];
+        let mut grown = Factor::with_capacity(3);
+        grown.factor(&matrix, 3, &[0, 1], 0).unwrap();
+        grown.factor(&matrix, 3, &[0, 2], 1).unwrap();
+        let mut fresh = Factor::with_capacity(3);
+        fresh.factor(&matrix, 3, &[0, 2], 0).unwrap();
+        let [mut a, mut b] = [[1.0, 2.0]; 2];
+        grown.solve(&mut a);
+        fresh.solve(&mut b);
+        assert_eq!(a, b);
+    }
+
+    #[test]
     fn an_indefinite_or_undefined_matrix_is_refused() {
         let mut factor = Factor::with_capacity(1);
-        assert!(factor.factor(&[-1.0], 1, &[0]).is_err());
-        assert!(factor.factor(&[f64::NAN], 1, &[0]).is_err());
+        assert!(factor.factor(&[-1.0], 1, &[0], 0).is_err());
+        assert!(factor.factor(&[f64::NAN], 1, &[0], 0).is_err());
     }
 }
