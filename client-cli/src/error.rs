@@ -94,6 +94,10 @@ fn advice_on(reason: &str) -> Option<&'static str> {
             "some muscles move the markers alike: correct the basis, or accept it with --regularize"
         }
         "DRAINING" => "the server is shutting down; try again when it is back",
+        "ACTOR_IN_USE" => "end its sessions first: `frontalis session list` shows them",
+        "SESSION_EXISTS" => "end it with `frontalis session end ID`, or choose another --id",
+        "ACTOR" => "`frontalis actor list` shows what there is",
+        "SESSION" => "`frontalis session list` shows what there is",
         "SUBSCRIBER_LAGGED" => "read faster, or watch without --every-frame",
         "DISK_LOW" => "free disk space on the server",
         "NAME" => "ids are 1 to 63 of a-z, 0-9, - and _, the first a letter or digit",

@@ -179,7 +179,9 @@ pub async fn get(channel: Channel, id: &str) -> Result<proto::Actor, ClientError
 }
 
 async fn show(context: &Context, args: &ShowArgs) -> anyhow::Result<()> {
-    let actor = get(context.connect().await?, &args.id).await?;
+    let actor = get(context.connect().await?, &args.id)
+        .await
+        .with_context(|| format!("cannot show actor {}", args.id))?;
     if context.json {
         say(json::actor(&actor))?;
     } else {
@@ -190,7 +192,9 @@ async fn show(context: &Context, args: &ShowArgs) -> anyhow::Result<()> {
 
 async fn export(context: &Context, args: &ExportArgs) -> anyhow::Result<()> {
     let form = PackageForm::of_file(&args.out)?;
-    let bytes = fetch(context.connect().await?, &args.id, args.revision).await?;
+    let bytes = fetch(context.connect().await?, &args.id, args.revision)
+        .await
+        .with_context(|| format!("cannot export actor {}", args.id))?;
     let bytes = form.convert(bytes)?;
     fs::write(&args.out, &bytes).with_context(|| format!("cannot write {}", args.out.display()))?;
     written(context, &args.out, bytes.len())
@@ -224,7 +228,8 @@ async fn delete(context: &Context, args: &DeleteArgs) -> anyhow::Result<ExitCode
     ActorServiceClient::new(context.connect().await?)
         .delete_actor(request)
         .await
-        .map_err(ClientError::from)?;
+        .map_err(ClientError::from)
+        .with_context(|| format!("cannot erase actor {}", args.id))?;
     if context.json {
         say(serde_json::json!({ "deleted": actor_name(&args.id) }))?;
     } else {

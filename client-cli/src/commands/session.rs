@@ -2,6 +2,7 @@
 
 use std::process::ExitCode;
 
+use anyhow::Context as _;
 use clap::{Args, Subcommand};
 use frontalis_client::{error::ClientError, proto};
 use proto::session_service_client::SessionServiceClient;
@@ -72,36 +73,34 @@ pub struct UpdateArgs {
 
 pub async fn run(context: &Context, command: SessionCommand) -> anyhow::Result<ExitCode> {
     let mut client = SessionServiceClient::new(context.connect().await?);
+    let what = command.what();
     let session = match command {
         SessionCommand::List => {
             list(context, &mut client).await?;
             return Ok(ExitCode::SUCCESS);
         }
-        SessionCommand::Create(args) => create(&mut client, args).await?,
-        SessionCommand::Show(args) => {
-            let name = session_name(&args.id);
-            let request = proto::GetSessionRequest { name };
-            answer(client.get_session(request).await)?.session
-        }
-        SessionCommand::Update(args) => update(&mut client, args).await?,
-        SessionCommand::Recenter(args) => {
-            let name = session_name(&args.id);
-            let request = proto::RecenterSessionRequest { name };
-            answer(client.recenter_session(request).await)?.session
-        }
-        SessionCommand::End(args) => {
-            let name = session_name(&args.id);
-            let request = proto::EndSessionRequest { name };
-            answer(client.end_session(request).await)?.session
-        }
+        SessionCommand::Create(args) => create(&mut client, args).await,
+        SessionCommand::Show(args) => show(&mut client, args).await,
+        SessionCommand::Update(args) => update(&mut client, args).await,
+        SessionCommand::Recenter(args) => recenter(&mut client, args).await,
+        SessionCommand::End(args) => end(&mut client, args).await,
     };
-    show(context, &session.unwrap_or_default())?;
+    print(context, &session.context(what)?.unwrap_or_default())?;
     Ok(ExitCode::SUCCESS)
 }
 
-/// What a call returned, or why it was refused.
-fn answer<T>(called: Result<tonic::Response<T>, tonic::Status>) -> Result<T, ClientError> {
-    Ok(called?.into_inner())
+impl SessionCommand {
+    /// What failed, when it failed.
+    fn what(&self) -> String {
+        match self {
+            Self::Create(args) => format!("cannot create a session of actor {}", args.actor),
+            Self::List => "cannot list the sessions".to_owned(),
+            Self::Show(args) => format!("cannot show session {}", args.id),
+            Self::Update(args) => format!("cannot change session {}", args.id),
+            Self::Recenter(args) => format!("cannot recenter session {}", args.id),
+            Self::End(args) => format!("cannot end session {}", args.id),
+        }
+    }
 }
 
 type Client = SessionServiceClient<tonic::transport::Channel>;
@@ -122,6 +121,27 @@ async fn create(
     };
     request.set_kind(proto::CaptureKind::Markers);
     Ok(client.create_session(request).await?.into_inner().session)
+}
+
+async fn show(client: &mut Client, args: IdArgs) -> Result<Option<proto::Session>, ClientError> {
+    let name = session_name(&args.id);
+    let request = proto::GetSessionRequest { name };
+    Ok(client.get_session(request).await?.into_inner().session)
+}
+
+async fn recenter(
+    client: &mut Client,
+    args: IdArgs,
+) -> Result<Option<proto::Session>, ClientError> {
+    let name = session_name(&args.id);
+    let request = proto::RecenterSessionRequest { name };
+    Ok(client.recenter_session(request).await?.into_inner().session)
+}
+
+async fn end(client: &mut Client, args: IdArgs) -> Result<Option<proto::Session>, ClientError> {
+    let name = session_name(&args.id);
+    let request = proto::EndSessionRequest { name };
+    Ok(client.end_session(request).await?.into_inner().session)
 }
 
 async fn update(
@@ -165,7 +185,7 @@ async fn list(context: &Context, client: &mut Client) -> anyhow::Result<()> {
     Ok(())
 }
 
-fn show(context: &Context, session: &proto::Session) -> anyhow::Result<()> {
+fn print(context: &Context, session: &proto::Session) -> anyhow::Result<()> {
     if context.json {
         say(json::session(session))?;
     } else {

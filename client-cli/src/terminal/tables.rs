@@ -137,7 +137,7 @@ pub fn sessions(sessions: &[Session]) -> Table {
 pub fn session(session: &Session) -> String {
     let status = session.status.clone().unwrap_or_default();
     let mut parts = vec![facts(session_facts(session, &status)).to_string()];
-    if !status.latencies.is_empty() {
+    if !status.latencies.is_empty() && status.frames_received > 0 {
         let mut latencies = table(&["latency", "p50 (µs)", "p99 (µs)", "max (µs)"]);
         for it in &status.latencies {
             let latency = it.latency.unwrap_or_default();
