@@ -31,9 +31,37 @@ struct Board {
     waiting: VecDeque<Waiting>,
     received: u64,
     first_received: Option<Instant>,
-    last_received: Option<Instant>,
-    latencies: Latencies,
+    /// Samples of neutral frames, which wait until the alignment is known.
+    neutral: Phase,
+    /// Samples of the frames after them.
+    live: Phase,
     error: RootMeanSquare,
+}
+
+#[derive(Debug, Default)]
+struct Phase {
+    samples: u64,
+    first: Option<Instant>,
+    last: Option<Instant>,
+    latencies: Latencies,
+}
+
+impl Phase {
+    fn add(&mut self, published: Instant, received: Instant) {
+        self.samples += 1;
+        self.first.get_or_insert(received);
+        self.last = Some(received);
+        self.latencies.add(received - published);
+    }
+
+    fn samples_per_second(&self) -> f64 {
+        match (self.first, self.last) {
+            (Some(first), Some(last)) if last > first => {
+                (self.samples - 1) as f64 / (last - first).as_secs_f64()
+            }
+            _ => 0.0,
+        }
+    }
 }
 
 #[derive(Debug)]
@@ -69,8 +97,7 @@ impl Scoreboard {
         let now = Instant::now();
         let mut board = self.lock();
         board.received += 1;
-        board.first_received.get_or_insert(now);
-        board.last_received = Some(now);
+        let first_received = *board.first_received.get_or_insert(now);
         while board
             .waiting
             .front()
@@ -84,7 +111,12 @@ impl Scoreboard {
             .is_some_and(|it| it.number == sample.frame)
             && let Some(frame) = board.waiting.pop_front()
         {
-            board.latencies.add(now - frame.published);
+            let phase = if frame.published < first_received {
+                &mut board.neutral
+            } else {
+                &mut board.live
+            };
+            phase.add(frame.published, now);
             board.error.add(&sample.activations, &frame.truth);
         }
     }
@@ -97,19 +129,17 @@ impl Scoreboard {
     /// The figures of the whole run.
     pub fn summary(&self, run: &StageRun, report: &PublishReport) -> Summary {
         let board = self.lock();
-        let span = match (board.first_received, board.last_received) {
-            (Some(first), Some(last)) => (last - first).as_secs_f64(),
-            _ => 0.0,
-        };
         Summary {
             published_frames: run.frames,
             accepted_frames: report.accepted_frames,
             received_samples: board.received,
             published_rate_hz: run.achieved_rate_hz(),
-            received_rate_hz: board.received.saturating_sub(1) as f64 / span.max(1e-9),
+            received_rate_hz: board.live.samples_per_second(),
             rms_error: board.error.value(),
-            latency_p50_micros: board.latencies.quantile_micros(0.5),
-            latency_p99_micros: board.latencies.quantile_micros(0.99),
+            latency_p50_micros: board.live.latencies.quantile_micros(0.5),
+            latency_p99_micros: board.live.latencies.quantile_micros(0.99),
+            neutral_frames: board.neutral.samples,
+            alignment_wait_micros: board.neutral.latencies.quantile_micros(1.0),
         }
     }
 }
@@ -125,6 +155,8 @@ pub struct Summary {
     rms_error: Option<f64>,
     latency_p50_micros: Option<f64>,
     latency_p99_micros: Option<f64>,
+    neutral_frames: u64,
+    alignment_wait_micros: Option<f64>,
 }
 
 impl Summary {
@@ -139,6 +171,8 @@ impl Summary {
                 "rms_error": self.rms_error,
                 "latency_p50_micros": self.latency_p50_micros,
                 "latency_p99_micros": self.latency_p99_micros,
+                "neutral_frames": self.neutral_frames,
+                "alignment_wait_micros": self.alignment_wait_micros,
             }))?;
             return Ok(());
         }
@@ -165,6 +199,11 @@ impl Summary {
             "publish to receipt    p50 {}, p99 {}",
             millis(self.latency_p50_micros),
             millis(self.latency_p99_micros)
+        ))?;
+        say(format_args!(
+            "neutral frames        {}, solved together when the alignment was known ({} after the first)",
+            self.neutral_frames,
+            millis(self.alignment_wait_micros)
         ))?;
         Ok(())
     }
