@@ -90,13 +90,13 @@ impl Equations {
         let mean = self.normal.trace() / 3.0;
         let spread = (self.normal / mean).determinant();
         let factor = (spread >= LEAST_SPREAD).then(|| Cholesky::new(self.normal));
-        match factor.flatten() {
-            Some(factor) => {
-                let place = factor.solve(&self.right) + self.origin;
-                Ok(PerformancePoint(place.into()))
-            }
-            None => Err(TriangulationError::ParallelRays { spread }),
-        }
+        factor
+            .flatten()
+            .map(|it| it.solve(&self.right) + self.origin)
+            // Image points near the largest number overflow on the way.
+            .filter(|it| it.iter().all(|it| it.is_finite()))
+            .map(|it| PerformancePoint(it.into()))
+            .ok_or(TriangulationError::ParallelRays { spread })
     }
 }
 
