@@ -13,7 +13,7 @@
 //! | [`curve`] | the sample that comes out |
 //! | [`synthesis`] | E = E₀ + Σ xᵢeᵢ, the reference face and its pseudo-muscles (Hung & Huang), expressions |
 //! | [`stage`] | cameras and triangulation |
-//! | [`format`] | bytes to types and back: actor packages, OBJ, GLB, TRC |
+//! | [`mod@format`] | bytes to types and back: actor packages, OBJ, GLB, TRC |
 
 pub mod analyzer;
 pub mod curve;

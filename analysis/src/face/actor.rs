@@ -164,7 +164,8 @@ impl Actor {
         MarkerBasis::at(self, &self.virtual_markers)
     }
 
-    /// How well the markers tell the muscles apart. Computed anew each time: a few milliseconds at the limits.
+    /// How well the markers tell the muscles apart. Computed anew each time: a fraction of a
+    /// millisecond for 30 muscles and 60 markers, about a second at the limits.
     pub fn basis_report(&self) -> BasisReport {
         BasisReport::of(&self.marker_basis(), &self.markers, &self.muscle_set)
     }

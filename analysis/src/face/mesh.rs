@@ -6,9 +6,11 @@
 mod closest;
 mod neighborhood;
 mod soundness;
+mod tree;
 
 pub use closest::SurfacePoint;
 pub use soundness::MeshFlaws;
+pub use tree::SurfaceTree;
 
 use crate::space::ModelPoint;
 

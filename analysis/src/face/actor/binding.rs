@@ -2,7 +2,10 @@
 
 use super::{ActorError, ActorParts, ActorWarning, BarycentricProblem, MarkerPlace};
 use crate::{
-    face::{marker::VirtualMarker, mesh::FaceMesh},
+    face::{
+        marker::VirtualMarker,
+        mesh::{FaceMesh, SurfaceTree},
+    },
     space::ModelPoint,
 };
 
@@ -18,6 +21,7 @@ pub(super) fn bind(
     warnings: &mut Vec<ActorWarning>,
 ) -> Result<Vec<VirtualMarker>, ActorError> {
     let mesh = &parts.mesh;
+    let mut tree = None;
     let mut bound = Vec::with_capacity(parts.markers.len());
     for (marker, place) in &parts.markers {
         let refused = |problem| ActorError::Barycentric {
@@ -33,8 +37,9 @@ pub(super) fn bind(
                         marker: marker.name.clone(),
                     });
                 }
-                let found = mesh
-                    .closest_point(*position, |_| true)
+                let found = tree
+                    .get_or_insert_with(|| SurfaceTree::of(mesh))
+                    .closest_point(*position)
                     .ok_or_else(|| refused(BarycentricProblem::NoSurface))?;
                 if found.distance_cm > FAR_OFF_CM {
                     warnings.push(ActorWarning::MarkerOffSurface {

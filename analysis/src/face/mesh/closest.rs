@@ -1,6 +1,6 @@
 //! The point of a surface closest to a given one (Ericson, Real-Time Collision Detection, section 5.1.5).
 
-use nalgebra::Point3;
+use nalgebra::{Point3, Vector3};
 
 use super::FaceMesh;
 use crate::{face::marker::VirtualMarker, space::ModelPoint};
@@ -42,42 +42,78 @@ impl FaceMesh {
         point: ModelPoint,
         triangles: impl IntoIterator<Item = usize>,
     ) -> Option<SurfacePoint> {
-        let mut best: Option<SurfacePoint> = None;
-        let mut best_squared = f64::INFINITY;
+        let mut best = Best::default();
         for triangle in triangles {
-            let corners = self.corners(triangle).map(|corner| corner.0);
-            if box_distance_squared(point.0, &corners) >= best_squared
-                || self.is_degenerate(triangle)
-            {
-                continue;
-            }
-            let barycentric = closest_on_triangle(point.0, corners);
-            let place = VirtualMarker {
-                triangle,
-                barycentric,
-            };
-            let position = place.position(self);
-            let squared = (position.0 - point.0).norm_squared();
-            if squared < best_squared {
-                best_squared = squared;
-                best = Some(SurfacePoint {
-                    place,
-                    position,
-                    distance_cm: squared.sqrt(),
-                });
-            }
+            best.offer(self, point, triangle);
         }
-        best
+        best.found
     }
 }
 
-/// Squared distance from a point to the axis-aligned box of a triangle; never more than that to the triangle.
-fn box_distance_squared(point: Point3<f64>, corners: &[Point3<f64>; 3]) -> f64 {
-    let [a, b, c] = corners;
-    let low = a.coords.inf(&b.coords).inf(&c.coords);
-    let high = a.coords.sup(&b.coords).sup(&c.coords);
-    let nearest = point.coords.sup(&low).inf(&high);
-    (point.coords - nearest).norm_squared()
+/// The closest point so far; of equally close ones that of the lowest triangle, whatever the order of asking.
+#[derive(Default)]
+pub(super) struct Best {
+    pub(super) found: Option<SurfacePoint>,
+}
+
+impl Best {
+    /// Whether nothing at this squared distance or further can be closer.
+    pub(super) fn beats(&self, distance_squared: f64) -> bool {
+        self.found
+            .is_some_and(|it| distance_squared > it.distance_cm * it.distance_cm)
+    }
+
+    /// Takes the triangle's closest point if it is closer; a triangle without area never is.
+    pub(super) fn offer(&mut self, mesh: &FaceMesh, point: ModelPoint, triangle: usize) {
+        let corners = mesh.corners(triangle).map(|corner| corner.0);
+        let bounds = Bounds::of(&corners);
+        if self.beats(bounds.distance_squared(point.0)) || mesh.is_degenerate(triangle) {
+            return;
+        }
+        let place = VirtualMarker {
+            triangle,
+            barycentric: closest_on_triangle(point.0, corners),
+        };
+        let position = place.position(mesh);
+        let offered = SurfacePoint {
+            place,
+            position,
+            distance_cm: (position.0 - point.0).norm(),
+        };
+        let rank = |it: &SurfacePoint| (it.distance_cm, it.place.triangle);
+        if self.found.is_none_or(|best| rank(&offered) < rank(&best)) {
+            self.found = Some(offered);
+        }
+    }
+}
+
+/// An axis-aligned box.
+#[derive(Clone, Copy)]
+pub(super) struct Bounds {
+    pub(super) low: Vector3<f64>,
+    pub(super) high: Vector3<f64>,
+}
+
+impl Bounds {
+    pub(super) fn of([a, b, c]: &[Point3<f64>; 3]) -> Self {
+        Self {
+            low: a.coords.inf(&b.coords).inf(&c.coords),
+            high: a.coords.sup(&b.coords).sup(&c.coords),
+        }
+    }
+
+    pub(super) fn joined(&self, other: &Self) -> Self {
+        Self {
+            low: self.low.inf(&other.low),
+            high: self.high.sup(&other.high),
+        }
+    }
+
+    /// Squared distance to a point; never more than that to anything inside.
+    pub(super) fn distance_squared(&self, point: Point3<f64>) -> f64 {
+        let nearest = point.coords.sup(&self.low).inf(&self.high);
+        (point.coords - nearest).norm_squared()
+    }
 }
 
 /// Barycentric weights of the point of a triangle closest to `p`, by the Voronoi region that `p` lies in.

@@ -442,6 +442,20 @@ fn d11_a_file_that_unpacks_beyond_its_limit_is_refused_whatever_the_directory_sa
 }
 
 #[test]
+fn d11_a_directory_of_very_many_files_is_refused_before_it_is_read() {
+    let names: Vec<_> = (0..=archive::MAX_ENTRIES)
+        .map(|it| format!("{it}"))
+        .collect();
+    let files: Vec<_> = names.iter().map(|it| (it.as_str(), &b""[..])).collect();
+    let (reason, message) = refused(&zip_with(&files, CompressionMethod::Stored));
+    assert_eq!(reason, "BASIS_SIZE");
+    assert_eq!(
+        message,
+        "the ZIP has 2049 entries, at most 2048 are accepted"
+    );
+}
+
+#[test]
 fn d11_compressed_uploads_and_nested_archives_are_not_accepted() {
     let plain = package(|_| {}, &[]);
     for start in [
