@@ -279,6 +279,10 @@ impl Config {
     }
 
     /// The configuration as a file would say it.
+    ///
+    /// # Panics
+    ///
+    /// Never: every field has a TOML form.
     pub fn to_toml(&self) -> String {
         toml::to_string(self).expect("invariant: every field has a TOML form")
     }
@@ -415,8 +419,10 @@ mod tests {
 
     #[test]
     fn limits_above_the_budget_are_refused_with_both_figures() {
-        let mut config = Config::default();
-        config.memory_budget_mib = 1_024;
+        let config = Config {
+            memory_budget_mib: 1_024,
+            ..Config::default()
+        };
         let message = config.validate().unwrap_err().to_string();
         assert!(message.contains("memory_budget_mib is 1024"), "{message}");
     }

@@ -32,7 +32,11 @@ impl Workers {
         Self(Kind::Inline)
     }
 
-    /// Runs `work` and returns what it returns. A panic of `work` goes on in the caller.
+    /// Runs `work` and returns what it returns.
+    ///
+    /// # Panics
+    ///
+    /// When `work` does: its panic goes on in the caller.
     pub async fn run<T, F>(&self, work: F) -> T
     where
         F: FnOnce() -> T + Send + 'static,

@@ -203,7 +203,11 @@ impl Metrics {
         self.0.panics.inner().load(Ordering::Relaxed)
     }
 
-    /// Every figure in the OpenMetrics text format.
+    /// Every figure in the `OpenMetrics` text format.
+    ///
+    /// # Panics
+    ///
+    /// Never: writing to a string does not fail.
     pub fn to_text(&self) -> String {
         let mut text = String::new();
         encode(&mut text, &self.0.registry).expect("invariant: writing to a string does not fail");

@@ -110,7 +110,7 @@ impl Catalogue {
             });
         }
         if with_sessions {
-            super::sessions::remember_counters(&change, "actor = ?1", params![id.as_str()])?;
+            super::sessions::remember_counters(&change, "actor = ?1", &[id.as_str()])?;
             change.execute("DELETE FROM sessions WHERE actor = ?1", [id.as_str()])?;
         }
         let files: Vec<String> = change

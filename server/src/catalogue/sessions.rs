@@ -205,7 +205,7 @@ impl Catalogue {
         run: u64,
         alignment: &StoredAlignment,
     ) -> Result<(), CatalogueError> {
-        self.set_alignment(id, run, Some(alignment.to_text()?))
+        self.set_alignment(id, run, Some(&alignment.to_text()?))
     }
 
     /// Drops the alignment of a session's run, if it has one. A run that is over changes nothing.
@@ -221,7 +221,7 @@ impl Catalogue {
         &self,
         id: &SessionId,
         run: u64,
-        text: Option<String>,
+        text: Option<&str>,
     ) -> Result<(), CatalogueError> {
         self.connection().execute(
             "UPDATE sessions SET alignment = ?3 WHERE id = ?1 AND run = ?2",
@@ -244,7 +244,7 @@ impl Catalogue {
         let values = [before_nanos, MAX_ENDED];
         let mut connection = self.connection();
         let change = connection.transaction_with_behavior(TransactionBehavior::Immediate)?;
-        remember_counters(&change, OLD, values)?;
+        remember_counters(&change, OLD, &values)?;
         let ids: Vec<String> = change
             .prepare(&format!("DELETE FROM sessions WHERE {OLD} RETURNING id"))?
             .query_map(values, |row| row.get(0))?
@@ -264,7 +264,7 @@ const MAX_ENDED: i64 = 4_096;
 pub(super) fn remember_counters(
     connection: &Connection,
     condition: &str,
-    values: impl Params + Clone,
+    values: &(impl Params + Clone),
 ) -> Result<(), CatalogueError> {
     for counter in ["run", "epoch"] {
         connection.execute(

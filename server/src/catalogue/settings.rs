@@ -66,9 +66,10 @@ impl From<&StoredSettings> for Record {
 
 impl From<Record> for StoredSettings {
     fn from(record: Record) -> Self {
-        let region_mode = match record.split_regions {
-            true => RegionMode::Split,
-            false => RegionMode::Joint,
+        let region_mode = if record.split_regions {
+            RegionMode::Split
+        } else {
+            RegionMode::Joint
         };
         Self {
             marker: MarkerSettings {

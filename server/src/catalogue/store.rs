@@ -299,9 +299,10 @@ impl Store {
 
 fn load(catalogue: &Catalogue, id: &ActorId, revision: u32) -> Result<Arc<Actor>, ActorLoadError> {
     let (package, regularized) = catalogue.package(id, revision)?;
-    let rank = match regularized {
-        true => RankPolicy::Regularize,
-        false => RankPolicy::Refuse,
+    let rank = if regularized {
+        RankPolicy::Regularize
+    } else {
+        RankPolicy::Refuse
     };
     let read = actor_package::read(&package, rank).map_err(|error| ActorLoadError::Package {
         actor: id.clone(),

@@ -111,9 +111,10 @@ async fn count_unknown(metrics: Metrics, request: Request) -> Response {
 /// Tells the health service whether the server serves.
 pub async fn report(reporter: &HealthReporter, serving: bool) {
     for (name, built) in HEALTH {
-        let status = match serving && built {
-            true => ServingStatus::Serving,
-            false => ServingStatus::NotServing,
+        let status = if serving && built {
+            ServingStatus::Serving
+        } else {
+            ServingStatus::NotServing
         };
         reporter.set_service_status(name, status).await;
     }

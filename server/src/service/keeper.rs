@@ -61,7 +61,9 @@ impl Keeper {
             if ended.len() > ENDED_IN_MEMORY {
                 let oldest = ended.pop_front();
                 // One that was created again under its id has not ended, and stays.
-                oldest.iter().for_each(|it| self.registry.remove(it));
+                if let Some(oldest) = oldest {
+                    self.registry.remove(&oldest);
+                }
             }
         }
         if let Err(error) = self.write(event).await {

@@ -33,14 +33,17 @@ pub struct Sessions {
     store: Store,
     registry: SessionRegistry,
     clock: ServerClock,
-    max_sessions: usize,
+    limit: usize,
     turn: Arc<Semaphore>,
 }
 
+/// Makes the settings that shall be of those in use.
+pub type Settle = Box<dyn FnOnce(&SessionSettings) -> Result<SessionSettings, Status> + Send>;
+
 /// What a session is changed to.
 pub struct Change {
-    /// Given the settings in use, those that shall be.
-    pub settings: Box<dyn FnOnce(&SessionSettings) -> Result<SessionSettings, Status> + Send>,
+    /// Applied to the settings in use.
+    pub settings: Settle,
     /// Another revision of its actor.
     pub actor_revision: Option<u32>,
 }
@@ -57,7 +60,7 @@ impl Sessions {
             store,
             registry,
             clock,
-            max_sessions,
+            limit: max_sessions,
             turn: Arc::new(Semaphore::new(1)),
         }
     }
@@ -77,7 +80,7 @@ impl Sessions {
             match self.open(row).await {
                 Ok(_) => n_restored += 1,
                 Err(error) => {
-                    tracing::error!(session = %id, %error, "a session could not be restored")
+                    tracing::error!(session = %id, %error, "a session could not be restored");
                 }
             }
         }
@@ -97,8 +100,8 @@ impl Sessions {
             .iter()
             .filter(|it| !it.is_ended())
             .count();
-        if n_open >= self.max_sessions {
-            let limit = self.max_sessions;
+        if n_open >= self.limit {
+            let limit = self.limit;
             return Err(SessionError::RegistryFull { limit }.into());
         }
         let newest = self.store.actor(&request.actor).await?;
@@ -135,7 +138,7 @@ impl Sessions {
     ///
     /// # Errors
     ///
-    /// NOT_FOUND, as it goes over the wire.
+    /// `NOT_FOUND`, as it goes over the wire.
     pub async fn get(&self, id: &SessionId) -> Result<v1::Session, Status> {
         match self.registry.get(id) {
             Ok(handle) => Ok(live(&handle)),
@@ -248,7 +251,7 @@ impl Sessions {
     ///
     /// # Errors
     ///
-    /// NOT_FOUND, as it goes over the wire.
+    /// `NOT_FOUND`, as it goes over the wire.
     pub fn handle(&self, id: &SessionId) -> Result<SessionHandle, Status> {
         Ok(self.registry.get(id)?)
     }
@@ -273,13 +276,11 @@ impl Sessions {
 
     /// The session in this process; one that is only in the catalogue has ended.
     async fn open_handle(&self, id: &SessionId) -> Result<SessionHandle, Status> {
-        match self.registry.get(id) {
-            Ok(handle) => Ok(handle),
-            Err(_) => {
-                self.store.session(id).await?;
-                Err(SessionError::Ended.into())
-            }
+        if let Ok(handle) = self.registry.get(id) {
+            return Ok(handle);
         }
+        self.store.session(id).await?;
+        Err(SessionError::Ended.into())
     }
 
     /// Starts a session from its row.

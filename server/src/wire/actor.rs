@@ -96,7 +96,8 @@ pub fn timestamp(unix_nanos: i64) -> Timestamp {
     let nanos = unix_nanos.rem_euclid(1_000_000_000);
     Timestamp {
         seconds: unix_nanos.div_euclid(1_000_000_000),
-        nanos: i32::try_from(nanos).expect("invariant: less than 10^9"),
+        // Less than 10^9, which always fits.
+        nanos: i32::try_from(nanos).unwrap_or(0),
     }
 }
 

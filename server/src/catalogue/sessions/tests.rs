@@ -83,7 +83,8 @@ fn epochs_never_repeat_over_restarts_or_when_the_id_is_used_again() {
     runs.push(second.create_session(&new, 6).unwrap().run);
     epochs.push(second.next_epoch(&new.id).unwrap());
     second.end_session(&new.id, runs[2], 7).unwrap();
-    assert_eq!(second.collect_sessions(8).unwrap(), [new.id.clone()]);
+    let collected = second.collect_sessions(8).unwrap();
+    assert_eq!(collected, std::slice::from_ref(&new.id));
     drop(second);
 
     let third = Catalogue::open(dir.path()).unwrap();

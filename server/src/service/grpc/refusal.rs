@@ -94,8 +94,7 @@ pub(super) fn package(error: &PackageError) -> Status {
 }
 
 /// A limit was reached; later there may be room.
-pub(super) fn limit(reason: &'static str, name: &'static str, limit: impl ToString) -> Status {
-    let limit = limit.to_string();
+pub(super) fn limit(reason: &'static str, name: &'static str, limit: usize) -> Status {
     Refusal::new(
         Code::ResourceExhausted,
         reason,

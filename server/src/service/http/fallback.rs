@@ -5,7 +5,7 @@ use std::any::Any;
 use axum::{
     body::Body,
     extract::{Request, State},
-    http::{HeaderMap, Method, StatusCode, Version, header},
+    http::{HeaderMap, HeaderValue, Method, StatusCode, Version, header},
     middleware::Next,
     response::{IntoResponse, Response},
 };
@@ -86,7 +86,7 @@ fn grpc(status: Status) -> Response {
 }
 
 fn speaks_grpc(headers: &HeaderMap) -> bool {
-    let kind = headers.get(header::CONTENT_TYPE).map(|it| it.as_bytes());
+    let kind = headers.get(header::CONTENT_TYPE).map(HeaderValue::as_bytes);
     kind.and_then(|it| it.strip_prefix(b"application/grpc"))
         .is_some_and(|rest| {
             rest.is_empty() || rest.starts_with(b"+proto") || rest.starts_with(b";")

@@ -9,7 +9,7 @@ use axum::{
 use super::{Doors, problem::Problem};
 use crate::{
     hub::SessionState,
-    session::SessionStatus,
+    session::{SessionHandle, SessionStatus},
     telemetry::{Protocol, SessionFigures},
     wire::session::state_name,
 };
@@ -61,7 +61,7 @@ pub(super) async fn metrics(State(doors): State<Doors>) -> impl IntoResponse {
         .sessions
         .handles()
         .iter()
-        .map(|it| it.status())
+        .map(SessionHandle::status)
         .collect();
     doors.metrics.set_ready(!doors.phases.is_draining());
     doors.metrics.set_sessions(&figures(&all));

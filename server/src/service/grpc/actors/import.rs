@@ -74,9 +74,10 @@ impl ActorsGrpc {
         start: ImportStart,
         package: Vec<u8>,
     ) -> Result<v1::ImportActorResponse, Status> {
-        let rank = match start.regularize {
-            true => RankPolicy::Regularize,
-            false => RankPolicy::Refuse,
+        let rank = if start.regularize {
+            RankPolicy::Regularize
+        } else {
+            RankPolicy::Refuse
         };
         let (read, package) = self
             .workers
@@ -120,13 +121,11 @@ fn unit_mismatch(declared: LengthUnit, found: LengthUnit) -> Status {
 async fn next(
     stream: &mut Streaming<v1::ImportActorRequest>,
 ) -> Result<Option<v1::ImportActorRequest>, Status> {
-    match tokio::time::timeout(MESSAGE_DEADLINE, stream.message()).await {
-        Ok(message) => message,
-        Err(_) => {
-            let message = format!("no message for {} s", MESSAGE_DEADLINE.as_secs());
-            Err(refuse(Code::DeadlineExceeded, "MESSAGE_DEADLINE", message))
-        }
-    }
+    let in_time = tokio::time::timeout(MESSAGE_DEADLINE, stream.message()).await;
+    in_time.unwrap_or_else(|_| {
+        let message = format!("no message for {} s", MESSAGE_DEADLINE.as_secs());
+        Err(refuse(Code::DeadlineExceeded, "MESSAGE_DEADLINE", message))
+    })
 }
 
 fn order(message: &str) -> Status {
