@@ -110,3 +110,17 @@ fn analyzer_nanos() -> f64 {
     });
     pass / frames.len() as f64
 }
+
+/// Aligning the reference face once: registration of the neutral frames, projection, similarity.
+fn alignment_nanos() -> f64 {
+    let (actor, frames) = performance(true);
+    let positions: Vec<_> = frames[..15]
+        .iter()
+        .map(|it| it.positions.as_slice())
+        .collect();
+    cpu_clock::median_nanos(|| {
+        let neutral = neutral::average(&positions);
+        let found = Alignment::find(&actor, &neutral, LengthUnit::Centimeter);
+        black_box(found).expect("the performance starts neutral");
+    })
+}

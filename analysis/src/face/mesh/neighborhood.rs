@@ -2,7 +2,10 @@
 
 use std::collections::BTreeMap;
 
-use super::{FaceMesh, closest::closest_on_triangle};
+use super::{
+    FaceMesh,
+    closest::{Bounds, closest_on_triangle},
+};
 use crate::face::marker::VirtualMarker;
 
 impl FaceMesh {
@@ -10,7 +13,7 @@ impl FaceMesh {
     /// from its center; itself included, in ascending order.
     ///
     /// Upper and lower lip do not share edges along the slit, so a marker that is searched only here stays on its lip.
-    /// Cost: one distance a triangle of the mesh, plus sorting those within the radius.
+    /// Cost: one bounding box test a triangle of the mesh, plus sorting those within the radius.
     ///
     /// # Panics
     ///
@@ -23,6 +26,9 @@ impl FaceMesh {
         .position(self);
         let within = |candidate: &usize| {
             let corners = self.corners(*candidate).map(|corner| corner.0);
+            if Bounds::of(&corners).distance_squared(center.0) > radius_cm * radius_cm {
+                return false;
+            }
             let place = VirtualMarker {
                 triangle: *candidate,
                 barycentric: closest_on_triangle(center.0, corners),
