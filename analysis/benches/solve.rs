@@ -45,11 +45,9 @@ fn main() {
         cpu_clock::print_row(name, solver_nanos(&settings), product);
     }
     let whole = analyzer_nanos();
-    cpu_clock::print_row(
-        "default, through the analyzer with its sample",
-        whole,
-        product,
-    );
+    cpu_clock::print_row("default, with its sample", whole, product);
+    let alignment = alignment_nanos();
+    cpu_clock::print_row("alignment of 15 neutral frames, once", alignment, product);
 }
 
 /// A performance with noise, so that every frame has work to do.
