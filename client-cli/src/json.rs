@@ -167,6 +167,7 @@ pub fn publication(session: &str, report: &PublishReport, failure: Option<&Clien
         "sent_frames": report.sent_frames,
         "resent_frames": report.resent_frames,
         "accepted_frames": report.accepted_frames,
+        "known_frames": report.known_frames,
         "rejected_frames": report.rejected_frames(),
         "rejected": rejected,
         "shed_frames": report.shed_frames,

@@ -15,6 +15,8 @@ pub struct PublishReport {
     pub resent_frames: u64,
     /// Frames the server took.
     pub accepted_frames: u64,
+    /// Frames whose numbers the session had before this publication began: the same content has no effect again.
+    pub known_frames: u64,
     /// Frames the server refused, by reason.
     pub rejected: BTreeMap<String, Rejection>,
     /// Frames taken whose solve was skipped because newer ones waited.

@@ -38,6 +38,15 @@ impl RingLimits {
     }
 }
 
+/// Sent frames that a watermark covered.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Settled {
+    /// The server took them.
+    pub accepted: u64,
+    /// The session had frames of these numbers before this publication began.
+    pub known: u64,
+}
+
 /// Unacknowledged frames in the order they were handed in.
 #[derive(Debug)]
 pub struct UnackedRing {
@@ -102,12 +111,22 @@ impl UnackedRing {
         Some(frame)
     }
 
-    /// The server has every usable frame up to `number`; returns how many sent frames that settles.
-    pub fn settle_through(&mut self, number: u64) -> u64 {
-        let mut settled = self.doubtful.remove_through(number);
-        while self.sent_ever > 0 && self.frames.front().is_some_and(|it| it.number <= number) {
+    /// The server has every usable frame up to `number`, and had those below `known_below` before.
+    pub fn settle_through(&mut self, number: u64, known_below: u64) -> Settled {
+        let mut settled = Settled {
+            accepted: self.doubtful.remove_through(number),
+            known: 0,
+        };
+        while self.sent_ever > 0
+            && let Some(first) = self.frames.front().map(|it| it.number)
+            && first <= number
+        {
             self.pop_front();
-            settled += 1;
+            if first < known_below {
+                settled.known += 1;
+            } else {
+                settled.accepted += 1;
+            }
         }
         settled
     }
@@ -240,7 +259,7 @@ mod tests {
         (5..=7).for_each(|it| ring.push(frame(it)));
         assert_eq!(ring.lost().n_frames(), 0);
         // The server had 1 and 2 when the connection broke.
-        assert_eq!(ring.settle_through(2), 2);
+        assert_eq!(ring.settle_through(2, 0).accepted, 2);
         ring.start_connection();
         assert_eq!(ring.lost().as_pairs(), [(3, 3)]);
         assert_eq!(numbers(&ring.next_batch(256, 1 << 20)), [4, 5, 6, 7]);
@@ -250,7 +269,7 @@ mod tests {
     fn a_new_connection_sends_what_was_not_acknowledged_again() {
         let mut ring = ring_of(100, 1..=6);
         assert_eq!(numbers(&ring.next_batch(4, 1 << 20)), [1, 2, 3, 4]);
-        ring.settle_through(2);
+        ring.settle_through(2, 0);
         ring.start_connection();
         assert_eq!(ring.to_resend(), 2);
         assert_eq!(numbers(&ring.next_batch(256, 1 << 20)), [3, 4, 5, 6]);
@@ -260,8 +279,19 @@ mod tests {
     #[test]
     fn a_watermark_does_not_settle_what_was_never_sent() {
         let mut ring = ring_of(100, 1..=3);
-        assert_eq!(ring.settle_through(300), 0);
+        assert_eq!(ring.settle_through(300, 0), Settled::default());
         assert_eq!(ring.len(), 3);
+    }
+
+    #[test]
+    fn frames_of_numbers_that_the_session_had_before_are_counted_apart() {
+        let mut ring = ring_of(100, 1..=5);
+        ring.next_batch(256, 1 << 20);
+        let expected = Settled {
+            accepted: 2,
+            known: 3,
+        };
+        assert_eq!(ring.settle_through(5, 4), expected);
     }
 
     #[test]

@@ -29,6 +29,8 @@ pub(super) struct State {
     pub report: PublishReport,
     pub is_closing: bool,
     pub failure: Option<ClientError>,
+    /// What the session expected next when the publication began.
+    known_below: u64,
     /// Frames shed on earlier connections; the wire counts from the start of each.
     shed_before: u64,
 }
@@ -41,6 +43,7 @@ impl Shared {
                 report: PublishReport::default(),
                 is_closing: false,
                 failure: None,
+                known_below: 0,
                 shed_before: 0,
             }),
             work: Notify::new(),
@@ -71,7 +74,10 @@ impl Shared {
         let started = first.started.unwrap_or_default();
         let mut state = self.lock();
         let had_run = state.report.run;
-        if had_run != 0 && started.run != had_run {
+        if had_run == 0 {
+            state.known_below = started.next_expected;
+        } else if started.run != had_run {
+            state.known_below = 0;
             state.report.new_runs += 1;
             state.report.accepted_through = 0;
             state.report.durable_through = 0;
@@ -96,8 +102,13 @@ impl Shared {
         let mut state = self.lock();
         for rejected in response.rejected {
             if !state.ring.settle_rejected(rejected.number) {
-                // It had been acknowledged before its solve failed.
-                state.report.accepted_frames = state.report.accepted_frames.saturating_sub(1);
+                // A watermark had covered it: its number was known, or its solve failed after it was taken.
+                let counted = if rejected.number < state.known_below {
+                    &mut state.report.known_frames
+                } else {
+                    &mut state.report.accepted_frames
+                };
+                *counted = counted.saturating_sub(1);
             }
             state.report.reject(rejected);
         }
@@ -118,6 +129,8 @@ impl Shared {
 
 impl State {
     fn settle_through(&mut self, number: u64) {
-        self.report.accepted_frames += self.ring.settle_through(number);
+        let settled = self.ring.settle_through(number, self.known_below);
+        self.report.accepted_frames += settled.accepted;
+        self.report.known_frames += settled.known;
     }
 }

@@ -47,6 +47,12 @@ fn lines(session: &str, report: &PublishReport, elapsed: Duration, what: &str) -
         report.rejected_frames(),
         report.shed_frames,
     )];
+    if report.known_frames > 0 {
+        lines.push(format!(
+            "  {} frames have numbers that the session had before (--renumber goes on after them)",
+            report.known_frames
+        ));
+    }
     for (reason, it) in &report.rejected {
         lines.push(format!(
             "  rejected {reason}: {} frames, the first {}: {}",

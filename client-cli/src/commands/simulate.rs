@@ -17,7 +17,7 @@ use frontalis_analysis::{
     synthesis::reference_face,
 };
 use frontalis_client::{
-    capture_client::CaptureClient,
+    capture_client::{CaptureClient, CaptureSettings},
     csv::field,
     simulated_stage::{SimulatedStage, StageFrame, StageSettings},
 };
@@ -76,6 +76,9 @@ pub struct SimulateArgs {
     /// Stable id of this capture client [default: frontalis-HOST]
     #[arg(long, value_name = "NAME")]
     publisher: Option<String>,
+    /// Take the session from another publisher
+    #[arg(long)]
+    takeover: bool,
 }
 
 impl SimulateArgs {
@@ -103,6 +106,10 @@ pub async fn run(context: &Context, args: SimulateArgs) -> anyhow::Result<ExitCo
         &actor,
         args.rate,
     );
+    let settings = CaptureSettings {
+        takeover: args.takeover,
+        ..settings
+    };
     let client = CaptureClient::start(channel, settings)
         .await
         .with_context(|| format!("the session {} was not opened for publishing", args.session))?;

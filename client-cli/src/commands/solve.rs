@@ -8,7 +8,7 @@ use std::{
     sync::Arc,
 };
 
-use anyhow::Context as _;
+use anyhow::{Context as _, bail};
 use clap::Args;
 use frontalis_analysis::{
     curve::Quality,
@@ -66,6 +66,9 @@ pub fn run(context: &Context, args: &SolveArgs) -> anyhow::Result<ExitCode> {
         .with_context(|| format!("cannot solve {}", args.take.display()))?;
     bar.finish_and_clear();
     report_left_out(&solved);
+    if solved.samples.is_empty() {
+        bail!("{} gave no sample", args.take.display());
+    }
     if args.csv {
         write_csv(&actor, &solved)?;
     } else if context.json {
