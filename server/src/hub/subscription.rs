@@ -122,8 +122,8 @@ enum Reading {
     Latest {
         credits: Option<Credits>,
         pace: Option<Pace>,
-        /// Sequence up to which samples were sent or passed over; `None` before the first.
-        sent_through: Option<u64>,
+        /// Sequence up to which samples were sent or passed over; the newest at the start is still to be sent.
+        sent_through: u64,
     },
     Every(Cursor),
 }
@@ -285,11 +285,10 @@ impl Subscription {
                 let may_send = credits.is_none_or(Credits::any)
                     && pace.is_none_or(|it| it.due() <= now || shared.closing.is_some());
                 let newest = shared.newest.as_ref().filter(|_| may_send);
-                let unsent = newest.filter(|it| sent_through.is_none_or(|sent| it.sequence > sent));
+                let unsent = newest.filter(|it| it.sequence > *sent_through);
                 if let Some(sample) = unsent {
-                    let passed_over = sent_through.map_or(0, |sent| sample.sequence - sent - 1);
-                    *sent_through = Some(sample.sequence);
-                    self.skipped_samples += passed_over;
+                    self.skipped_samples += sample.sequence - *sent_through - 1;
+                    *sent_through = sample.sequence;
                     if let Some(credits) = credits {
                         credits.spend();
                     }
@@ -330,7 +329,7 @@ impl Reading {
                 Ok(Self::Latest {
                     credits: credits.map(Credits::new),
                     pace: rate_hz.map(|rate_hz| Pace::new(rate_hz, Instant::now())),
-                    sent_through: None,
+                    sent_through: shared.window.newest_sequence().saturating_sub(1),
                 })
             }
         }
@@ -342,3 +341,6 @@ impl Drop for Subscription {
         self.hub.strike(self.id);
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -6,5 +6,7 @@ pub mod curves;
 mod ending;
 mod refusal;
 pub mod sessions;
+#[cfg(test)]
+mod stage;
 pub mod status;
 pub mod takes;

@@ -290,8 +290,8 @@ mod tests {
         }
     }
 
-    fn delivery_of(sent: v1::SubscribeStart) -> Delivery {
-        start(&sent, "peer".to_owned(), true).unwrap().spec.delivery
+    fn delivery_of(sent: &v1::SubscribeStart) -> Delivery {
+        start(sent, "peer".to_owned(), true).unwrap().spec.delivery
     }
 
     #[test]
@@ -300,7 +300,7 @@ mod tests {
             credits: None,
             max_rate_hz: None,
         };
-        assert_eq!(delivery_of(a_start()), uncontrolled);
+        assert_eq!(delivery_of(&a_start()), uncontrolled);
         let sent = v1::SubscribeStart {
             credits: 3,
             max_rate_hz: 60.0,
@@ -310,7 +310,7 @@ mod tests {
             credits: Some(3),
             max_rate_hz: Some(60.0),
         };
-        assert_eq!(delivery_of(sent.clone()), controlled);
+        assert_eq!(delivery_of(&sent), controlled);
         let followed = start(&sent, String::new(), false).unwrap().spec.delivery;
         assert_eq!(
             followed,
@@ -325,7 +325,7 @@ mod tests {
     fn every_frame_starts_where_it_is_told() {
         let every = |from_sequence, from_oldest| {
             let delivery = v1::Delivery::EveryFrame.into();
-            delivery_of(v1::SubscribeStart {
+            delivery_of(&v1::SubscribeStart {
                 delivery,
                 from_sequence,
                 from_oldest,

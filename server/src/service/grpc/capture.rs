@@ -47,7 +47,8 @@ impl CaptureGrpc {
         }
     }
 
-    fn publish<S>(&self, requests: S) -> Responses
+    /// The responses to one publisher's requests.
+    pub(super) fn publish<S>(&self, requests: S) -> Responses
     where
         S: Stream<Item = Result<v1::PublishMarkersRequest, Status>> + Send + Unpin + 'static,
     {
@@ -361,3 +362,6 @@ impl Flow {
         Ok(())
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -34,6 +34,14 @@ impl CurvesGrpc {
         Self { registry, clock }
     }
 
+    /// The responses to one subscriber's requests.
+    pub(super) fn subscription<S>(&self, requests: S, peer: String) -> Responses
+    where
+        S: Stream<Item = Result<v1::SubscribeRequest, Status>> + Send + Unpin + 'static,
+    {
+        self.responses(requests, Phase::Opening, peer)
+    }
+
     fn responses<S>(&self, grants: S, phase: Phase, peer: String) -> Responses
     where
         S: Stream<Item = Result<v1::SubscribeRequest, Status>> + Send + Unpin + 'static,
@@ -90,7 +98,7 @@ impl CurveService for CurvesGrpc {
         request: Request<Streaming<v1::SubscribeRequest>>,
     ) -> Result<Response<Responses>, Status> {
         let peer = peer_of(&request);
-        let responses = self.responses(request.into_inner(), Phase::Opening, peer);
+        let responses = self.subscription(request.into_inner(), peer);
         Ok(Response::new(responses))
     }
 
@@ -230,3 +238,6 @@ impl Flow {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;
