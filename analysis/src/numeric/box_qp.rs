@@ -22,15 +22,9 @@ const BLOCK_STEPS: usize = 8;
 const STEPS_FIXED: usize = 40;
 const STEPS_PER_UNKNOWN: usize = 10;
 
-/// Where an unknown stands.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Place {
-    Lower,
-    Free,
-    Upper,
-}
-
 /// The program and everything its solver reuses between frames.
+///
+/// Where an unknown stands is kept as numbers, so that the loops over all unknowns have no branches to mispredict.
 #[derive(Clone, Debug)]
 pub struct BoxQp {
     m: usize,
@@ -41,8 +35,16 @@ pub struct BoxQp {
     largest_diagonal: f64,
     lower: Vec<f64>,
     upper: Vec<f64>,
-    place: Vec<Place>,
+    /// The sign that the gradient must not have: 1 at the lower bound, -1 at the upper one, 0 where free or fixed.
+    side: Vec<f64>,
+    /// 1 where free, else 0.
+    is_free: Vec<f64>,
+    /// The free unknowns, ascending.
     free: Vec<usize>,
+    /// The unknowns that are bound at another value than 0, ascending.
+    offset: Vec<usize>,
+    /// The last solution, as long as `side`, `free` and `offset` are those of it.
+    solution: Option<Vec<f64>>,
     /// The free set that `factor` belongs to; empty when Q has changed since.
     factored: Vec<usize>,
     factor: Factor,
@@ -84,8 +86,11 @@ impl BoxQp {
             largest_diagonal: 0.0,
             lower: vec![0.0; m],
             upper: vec![1.0; m],
-            place: vec![Place::Lower; m],
+            side: vec![0.0; m],
+            is_free: vec![0.0; m],
             free: Vec::with_capacity(m),
+            offset: Vec::with_capacity(m),
+            solution: None,
             factored: Vec::with_capacity(m),
             factor: Factor::with_capacity(m),
             target: vec![0.0; stride],
@@ -126,6 +131,7 @@ impl BoxQp {
         assert!(lower.is_finite() && upper.is_finite() && lower <= upper);
         self.lower[unknown] = lower;
         self.upper[unknown] = upper;
+        self.solution = None;
     }
 
     /// Solves for `x`, which holds the start on entry (any values; they are moved into the box) and the solution on return.
@@ -134,12 +140,29 @@ impl BoxQp {
     ///
     /// When Q is not positive definite on the free unknowns, or the step limit is reached; `x` is then some point of the box.
     pub fn solve(&mut self, c: &[f64], x: &mut [f64]) -> Result<Report, BoxQpError> {
-        self.start(x);
+        let known = self.solution.take();
+        if known.as_deref() != Some(x) {
+            self.start(x);
+        }
+        let report = self.solve_started(c, x)?;
+        let mut solution = known.unwrap_or_default();
+        solution.clear();
+        solution.extend_from_slice(x);
+        self.solution = Some(solution);
+        Ok(report)
+    }
+
+    fn solve_started(&mut self, c: &[f64], x: &mut [f64]) -> Result<Report, BoxQpError> {
         for steps in 1..=BLOCK_STEPS {
             self.solve_free(c, x)?;
-            if !self.exchange(x) {
+            for (&i, &target) in self.free.iter().zip(&self.target) {
+                x[i] = target;
+            }
+            self.compute_gradient(x);
+            if self.is_solved(x) {
                 return Ok(self.report(steps));
             }
+            self.exchange(x);
         }
         self.start(x);
         self.solve_primal(c, x)
@@ -155,7 +178,10 @@ impl BoxQp {
             }
             self.compute_gradient(x);
             match self.worst_multiplier() {
-                Some(unknown) => self.place[unknown] = Place::Free,
+                Some(unknown) => {
+                    (self.side[unknown], self.is_free[unknown]) = (0.0, 1.0);
+                    self.list(x);
+                }
                 None => return Ok(self.report(BLOCK_STEPS + steps)),
             }
         }
@@ -163,61 +189,89 @@ impl BoxQp {
     }
 
     fn report(&self, steps: usize) -> Report {
+        let unknowns = self.gradient.iter().zip(&self.side).zip(&self.is_free);
+        let worst = unknowns.fold(0.0, |worst: f64, ((g, side), free)| {
+            worst.max(-side * g).max(free * g.abs())
+        });
         Report {
             steps,
-            kkt_residual: self.kkt_residual(),
+            kkt_residual: worst / self.largest_diagonal.max(f64::MIN_POSITIVE),
         }
     }
 
-    /// Takes over the solution of the free unknowns and exchanges all that are wrong; says whether there were any.
-    fn exchange(&mut self, x: &mut [f64]) -> bool {
-        for (&i, &target) in self.free.iter().zip(&self.target) {
-            x[i] = target;
-        }
-        self.compute_gradient(x);
-        let tolerance = MULTIPLIER_TOLERANCE * self.largest_diagonal;
-        let mut exchanged = false;
-        for (i, value) in x.iter_mut().enumerate() {
-            let (lower, upper) = (self.lower[i], self.upper[i]);
-            match self.place[i] {
-                Place::Free if *value < lower => (*value, self.place[i]) = (lower, Place::Lower),
-                Place::Free if *value > upper => (*value, self.place[i]) = (upper, Place::Upper),
-                Place::Lower | Place::Upper if self.violation(i) > tolerance => {
-                    self.place[i] = Place::Free;
-                }
-                _ => continue,
+    fn tolerance(&self) -> f64 {
+        MULTIPLIER_TOLERANCE * self.largest_diagonal
+    }
+
+    /// Whether every free unknown is in its box and every multiplier has the right sign.
+    fn is_solved(&self, x: &[f64]) -> bool {
+        let tolerance = self.tolerance();
+        let bounds = self.lower.iter().zip(&self.upper);
+        let signs = self.gradient.iter().zip(&self.side);
+        let wrong = x.iter().zip(bounds).zip(signs).fold(
+            false,
+            |wrong, ((x, (lower, upper)), (g, side))| {
+                wrong | (x < lower) | (x > upper) | (-side * g > tolerance)
+            },
+        );
+        !wrong
+    }
+
+    /// Exchanges every unknown that is wrong.
+    fn exchange(&mut self, x: &mut [f64]) {
+        let tolerance = self.tolerance();
+        for (i, x) in x.iter_mut().enumerate() {
+            if -self.side[i] * self.gradient[i] > tolerance {
+                (self.side[i], self.is_free[i]) = (0.0, 1.0);
+            } else if *x < self.lower[i] {
+                *x = self.lower[i];
+                (self.side[i], self.is_free[i]) = (1.0, 0.0);
+            } else if *x > self.upper[i] {
+                *x = self.upper[i];
+                (self.side[i], self.is_free[i]) = (-1.0, 0.0);
             }
-            exchanged = true;
         }
-        exchanged
+        self.list(x);
     }
 
     /// Moves the start into the box and reads off which bounds it touches.
     fn start(&mut self, x: &mut [f64]) {
-        for (i, it) in x.iter_mut().enumerate() {
+        for (i, x) in x.iter_mut().enumerate() {
             let (lower, upper) = (self.lower[i], self.upper[i]);
-            if *it >= upper && lower < upper {
-                (*it, self.place[i]) = (upper, Place::Upper);
-            } else if *it > lower && lower < upper {
-                self.place[i] = Place::Free;
+            let (value, side, is_free) = if lower >= upper {
+                (lower, 0.0, 0.0)
+            } else if *x >= upper {
+                (upper, -1.0, 0.0)
+            } else if *x > lower {
+                (*x, 0.0, 1.0)
             } else {
                 // Also where the start is undefined: NaN fails both comparisons.
-                (*it, self.place[i]) = (lower, Place::Lower);
+                (lower, 1.0, 0.0)
+            };
+            (*x, self.side[i], self.is_free[i]) = (value, side, is_free);
+        }
+        self.list(x);
+    }
+
+    /// Lists the free unknowns, and those bound at another value than 0.
+    fn list(&mut self, x: &[f64]) {
+        self.free.clear();
+        self.offset.clear();
+        for (i, (&x, &is_free)) in x.iter().zip(&self.is_free).enumerate() {
+            if is_free > 0.0 {
+                self.free.push(i);
+            } else if x != 0.0 {
+                self.offset.push(i);
             }
         }
     }
 
     /// Minimizes over the free unknowns alone, the others at their bounds; the result is `target`.
     fn solve_free(&mut self, c: &[f64], x: &[f64]) -> Result<(), BoxQpError> {
-        self.free.clear();
         self.remainder[..self.m].copy_from_slice(c);
-        for (j, (&value, place)) in x.iter().zip(&self.place).enumerate() {
-            if *place == Place::Free {
-                self.free.push(j);
-            } else if value != 0.0 {
-                let column = &self.hessian[j * self.stride..(j + 1) * self.stride];
-                subtract_multiple(&mut self.remainder, value, column);
-            }
+        for &j in &self.offset {
+            let column = &self.hessian[j * self.stride..(j + 1) * self.stride];
+            subtract_multiple(&mut self.remainder, x[j], column);
         }
         self.refactor()?;
         for (t, &i) in self.target.iter_mut().zip(&self.free) {
@@ -252,17 +306,17 @@ impl BoxQp {
         let mut length = 1.0;
         let mut blocking = None;
         for (&i, &target) in self.free.iter().zip(&self.target) {
-            let (bound, place) = if target < self.lower[i] {
-                (self.lower[i], Place::Lower)
+            let (bound, side) = if target < self.lower[i] {
+                (self.lower[i], 1.0)
             } else if target > self.upper[i] {
-                (self.upper[i], Place::Upper)
+                (self.upper[i], -1.0)
             } else {
                 continue;
             };
             let reach = (bound - x[i]) / (target - x[i]);
             if blocking.is_none() || reach < length {
                 length = reach.clamp(0.0, 1.0);
-                blocking = Some((i, bound, place));
+                blocking = Some((i, bound, side));
             }
         }
         for (&i, &target) in self.free.iter().zip(&self.target) {
@@ -272,9 +326,10 @@ impl BoxQp {
                 target
             };
         }
-        if let Some((unknown, bound, place)) = blocking {
+        if let Some((unknown, bound, side)) = blocking {
             x[unknown] = bound;
-            self.place[unknown] = place;
+            (self.side[unknown], self.is_free[unknown]) = (side, 0.0);
+            self.list(x);
         }
         blocking.is_some()
     }
@@ -290,32 +345,20 @@ impl BoxQp {
         }
     }
 
-    /// By how much the gradient at unknown `i` could still lower the objective inside the box; 0 for a fixed unknown.
-    fn violation(&self, i: usize) -> f64 {
-        let g = self.gradient[i];
-        match self.place[i] {
-            Place::Free => g.abs(),
-            _ if self.lower[i] >= self.upper[i] => 0.0,
-            Place::Lower => (-g).max(0.0),
-            Place::Upper => g.max(0.0),
-        }
-    }
-
+    /// The bound unknown whose release would lower the objective most steeply.
     fn worst_multiplier(&self) -> Option<usize> {
-        let tolerance = MULTIPLIER_TOLERANCE * self.largest_diagonal;
-        let mut worst = (None, tolerance);
-        for i in 0..self.m {
-            let violation = self.violation(i);
-            if self.place[i] != Place::Free && violation > worst.1 {
+        let violations = self
+            .gradient
+            .iter()
+            .zip(&self.side)
+            .map(|(g, side)| -side * g);
+        let mut worst = (None, self.tolerance());
+        for (i, violation) in violations.enumerate() {
+            if violation > worst.1 {
                 worst = (Some(i), violation);
             }
         }
         worst.0
-    }
-
-    fn kkt_residual(&self) -> f64 {
-        let worst = (0..self.m).fold(0.0, |worst: f64, i| worst.max(self.violation(i)));
-        worst / self.largest_diagonal.max(f64::MIN_POSITIVE)
     }
 }
 
