@@ -204,6 +204,10 @@ impl BoxQp {
     }
 
     /// Whether every free unknown is in its box and every multiplier has the right sign.
+    #[expect(
+        clippy::needless_bitwise_bool,
+        reason = "a branch an unknown would be mispredicted, once or twice a frame"
+    )]
     fn is_solved(&self, x: &[f64]) -> bool {
         let tolerance = self.tolerance();
         let bounds = self.lower.iter().zip(&self.upper);
