@@ -15,6 +15,11 @@ pub struct ServerClock {
 }
 
 impl ServerClock {
+    /// Starts the clock by the machine's wall clock, which is read this once.
+    pub fn start_now() -> Self {
+        Self::start(SystemTime::now())
+    }
+
     /// Starts the clock; `unix_now` is the wall clock's reading at this moment.
     pub fn start(unix_now: SystemTime) -> Self {
         let since_epoch = unix_now.duration_since(UNIX_EPOCH).unwrap_or_default();

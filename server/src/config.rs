@@ -10,7 +10,7 @@ use std::{net::SocketAddr, path::PathBuf, time::Duration};
 
 use serde::{Deserialize, Serialize};
 
-pub use memory::{MemoryItem, worst_case};
+pub use memory::{MemoryItem, SMALL_MESSAGE_BYTES, worst_case};
 
 const KIB: u64 = 1024;
 const MIB: u64 = 1024 * KIB;
@@ -54,6 +54,10 @@ pub struct Limits {
     pub connections_per_peer: u64,
     /// Open streams of one connection.
     pub streams_per_connection: u32,
+    /// Calls in progress, of all connections.
+    pub calls: u64,
+    /// Calls in progress that publish.
+    pub publishers: u64,
     /// Sessions that have not ended.
     pub sessions: u64,
     /// Subscribers of one session.
@@ -76,6 +80,8 @@ pub struct Limits {
     pub package_mib: u64,
     /// Imports at once.
     pub imports: u64,
+    /// Exports at once.
+    pub exports: u64,
     /// Actors that stay loaded besides those in use.
     pub cached_actors: u64,
 }
@@ -125,6 +131,8 @@ impl Default for Limits {
             connections: 2_048,
             connections_per_peer: 1_024,
             streams_per_connection: 256,
+            calls: 8_192,
+            publishers: 1_024,
             sessions: 512,
             subscribers_per_session: 1_024,
             subscribers: 4_096,
@@ -136,6 +144,7 @@ impl Default for Limits {
             message_kib: 1_024,
             package_mib: 64,
             imports: 2,
+            exports: 2,
             cached_actors: 16,
         }
     }
@@ -287,7 +296,7 @@ impl Config {
         toml::to_string(self).expect("invariant: every field has a TOML form")
     }
 
-    fn ranges(&self) -> [(&'static str, u64, u64, u64); 27] {
+    fn ranges(&self) -> [(&'static str, u64, u64, u64); 30] {
         let (l, t) = (&self.limits, &self.transport);
         [
             ("shutdown_grace_secs", self.shutdown_grace_secs, 1, 300),
@@ -334,6 +343,9 @@ impl Config {
             ("limits.message_kib", l.message_kib, 64, 16_384),
             ("limits.package_mib", l.package_mib, 1, 1_024),
             ("limits.imports", l.imports, 1, 64),
+            ("limits.exports", l.exports, 1, 64),
+            ("limits.calls", l.calls, 1, 1 << 20),
+            ("limits.publishers", l.publishers, 1, 65_536),
             ("limits.cached_actors", l.cached_actors, 1, 4_096),
             (
                 "transport.keepalive_interval_secs",

@@ -1,6 +1,6 @@
 //! One server from start to end: everything that runs is started here and joined here.
 
-use std::{io, net::SocketAddr, time::SystemTime};
+use std::{io, net::SocketAddr, time::Duration};
 
 use tokio::{net::TcpListener, sync::mpsc, time::timeout};
 use tokio_util::{sync::CancellationToken, task::TaskTracker};
@@ -13,6 +13,7 @@ use crate::{
     executor::Workers,
     fs::MemFs,
     service::{
+        calls::Calls,
         door::{self, ReflectionError, Services},
         grpc::{
             actors::ActorsGrpc, capture::CaptureGrpc, curves::CurvesGrpc, sessions::SessionsGrpc,
@@ -89,7 +90,7 @@ pub async fn run(
 ) -> Result<Server, RunError> {
     config.validate()?;
     let address = listener.local_addr()?;
-    let clock = ServerClock::start(SystemTime::now());
+    let clock = ServerClock::start_now();
     let metrics = Metrics::new(env!("CARGO_PKG_VERSION"));
     metrics.set_insecure(!address.ip().is_loopback());
     metrics.set_worst_case_bytes(worst_case(&config).iter().map(|it| it.bytes).sum());
@@ -119,11 +120,13 @@ pub async fn run(
             heavy,
             config.limits.package_bytes(),
             count(config.limits.imports),
+            count(config.limits.exports),
         ),
         sessions: SessionsGrpc(sessions.clone()),
         capture: CaptureGrpc::new(registry.clone(), store.clone(), clock),
         curves: CurvesGrpc::new(registry.clone(), clock),
         max_message_bytes: config.limits.message_bytes(),
+        calls: Calls::new(&config.limits),
     };
     let doors = Doors {
         store: store.clone(),
@@ -141,7 +144,7 @@ pub async fn run(
         clock,
     };
     upkeep.spawn(keeper.run(kept, drained.clone()));
-    let retention = std::time::Duration::from_secs(config.session_retention_hours * 3_600);
+    let retention = Duration::from_secs(config.session_retention_hours * 3_600);
     let n_restored = sessions.restore().await?;
     if n_restored > 0 {
         tracing::info!(n_restored, "sessions go on as new runs");
@@ -179,9 +182,12 @@ pub async fn run(
     })
 }
 
+/// Time for the last events to reach the disk, after everything else has ended.
+const LAST_WRITES: Duration = Duration::from_secs(1);
+
 /// What has to end, in order.
 struct Ending {
-    grace: std::time::Duration,
+    grace: Duration,
     phases: Phases,
     health: HealthReporter,
     registry: SessionRegistry,
@@ -211,9 +217,10 @@ impl Ending {
         self.connections.wait().await;
         self.drained.cancel();
         self.upkeep.close();
-        self.upkeep.wait().await;
+        // Only a session that did not finish within the grace can still hold these up.
+        let written = timeout(LAST_WRITES, self.upkeep.wait()).await.is_ok();
         tracing::info!("stopped");
-        clean
+        clean && written
     }
 
     async fn drain(&mut self) {

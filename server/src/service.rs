@@ -1,5 +1,6 @@
 //! The doors of the server: gRPC and plain HTTP.
 
+pub mod calls;
 pub mod door;
 pub mod grpc;
 pub mod http;

@@ -3,13 +3,16 @@
 //! Each server has its own registry, so that two servers in one process do not add up.
 //! No label holds a client's text: labels are words of this file (CONTRACTS S-14).
 
-use std::sync::{
-    Arc,
-    atomic::{AtomicI64, AtomicU64, Ordering},
+use std::{
+    io::IsTerminal as _,
+    sync::{
+        Arc,
+        atomic::{AtomicI64, AtomicU64, Ordering},
+    },
 };
 
 use prometheus_client::{
-    encoding::{EncodeLabelSet, EncodeLabelValue, text::encode},
+    encoding::{EncodeLabelSet, text::encode},
     metrics::{counter::Counter, family::Family, gauge::Gauge, info::Info},
     registry::{Registry, Unit},
 };
@@ -31,13 +34,14 @@ struct Inner {
     frames: Family<FramesLabel, Gauge<i64, AtomicI64>>,
     subscribers: Gauge,
     subscriber_samples: Family<SamplesLabel, Gauge<i64, AtomicI64>>,
+    latencies: Family<LatencyLabel, Gauge<f64, AtomicU64>>,
     ready: Gauge,
     insecure: Gauge,
     worst_case_bytes: Gauge<u64, AtomicU64>,
 }
 
 /// Which limit refused a connection.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, EncodeLabelValue)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ConnectionLimit {
     /// `limits.connections`.
     Connections,
@@ -46,7 +50,7 @@ pub enum ConnectionLimit {
 }
 
 /// How a request was spoken.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, EncodeLabelValue)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Protocol {
     /// gRPC.
     Grpc,
@@ -54,14 +58,32 @@ pub enum Protocol {
     Http,
 }
 
+impl ConnectionLimit {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Connections => "connections",
+            Self::ConnectionsPerPeer => "connections_per_peer",
+        }
+    }
+}
+
+impl Protocol {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Grpc => "grpc",
+            Self::Http => "http",
+        }
+    }
+}
+
 #[derive(Clone, Debug, PartialEq, Eq, Hash, EncodeLabelSet)]
 struct RefusedLabel {
-    limit: ConnectionLimit,
+    limit: &'static str,
 }
 
 #[derive(Clone, Debug, PartialEq, Eq, Hash, EncodeLabelSet)]
 struct ProtocolLabel {
-    protocol: Protocol,
+    protocol: &'static str,
 }
 
 #[derive(Clone, Debug, PartialEq, Eq, Hash, EncodeLabelSet)]
@@ -79,8 +101,14 @@ struct SamplesLabel {
     what: &'static str,
 }
 
+#[derive(Clone, Debug, PartialEq, Eq, Hash, EncodeLabelSet)]
+struct LatencyLabel {
+    stage: &'static str,
+    quantile: &'static str,
+}
+
 /// Figures of the sessions that are listed, taken when somebody asks.
-#[derive(Clone, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct SessionFigures {
     /// How many are in each state.
     pub states: Vec<(&'static str, u64)>,
@@ -90,6 +118,8 @@ pub struct SessionFigures {
     pub subscribers: u64,
     /// Samples sent and skipped.
     pub samples: Vec<(&'static str, u64)>,
+    /// Stage, quantile, and the slowest session's time at it, microseconds.
+    pub latencies: Vec<(&'static str, &'static str, f64)>,
 }
 
 impl Metrics {
@@ -110,6 +140,7 @@ impl Metrics {
             frames: Family::default(),
             subscribers: Gauge::default(),
             subscriber_samples: Family::default(),
+            latencies: Family::default(),
             ready: Gauge::default(),
             insecure: Gauge::default(),
             worst_case_bytes: Gauge::default(),
@@ -133,7 +164,9 @@ impl Metrics {
     pub fn connection_refused(&self, limit: ConnectionLimit) {
         self.0
             .connections_refused
-            .get_or_create(&RefusedLabel { limit })
+            .get_or_create(&RefusedLabel {
+                limit: limit.name(),
+            })
             .inc();
     }
 
@@ -146,7 +179,9 @@ impl Metrics {
     pub fn request(&self, protocol: Protocol) {
         self.0
             .requests
-            .get_or_create(&ProtocolLabel { protocol })
+            .get_or_create(&ProtocolLabel {
+                protocol: protocol.name(),
+            })
             .inc();
     }
 
@@ -189,6 +224,10 @@ impl Metrics {
                 .subscriber_samples
                 .get_or_create(&SamplesLabel { what })
                 .set(clamped(count));
+        }
+        for &(stage, quantile, micros) in &figures.latencies {
+            let label = LatencyLabel { stage, quantile };
+            self.0.latencies.get_or_create(&label).set(micros);
         }
         self.0.subscribers.set(clamped(figures.subscribers));
     }
@@ -260,6 +299,11 @@ impl Inner {
             "Samples of the present subscribers by what became of them",
             self.subscriber_samples.clone(),
         );
+        it.register(
+            "stage_latency_micros",
+            "Time in each stage of the slowest session, over its last thousand samples",
+            self.latencies.clone(),
+        );
         it.register("ready", "1: new sessions are accepted", self.ready.clone());
         it.register(
             "insecure",
@@ -291,6 +335,7 @@ pub fn start_log(filter: &str) -> Result<(), LogError> {
     tracing_subscriber::fmt()
         .with_env_filter(filter)
         .with_writer(std::io::stderr)
+        .with_ansi(std::io::stderr().is_terminal())
         .try_init()
         .map_err(|error| LogError::Set(error.to_string()))
 }
@@ -322,7 +367,7 @@ mod tests {
         let text = one.to_text();
         assert!(text.contains("frontalis_connections 1\n"), "{text}");
         assert!(
-            text.contains("frontalis_requests_total{protocol=\"Grpc\"} 1\n"),
+            text.contains("frontalis_requests_total{protocol=\"grpc\"} 1\n"),
             "{text}"
         );
         assert!(

@@ -231,7 +231,7 @@ impl Catalogue {
     }
 
     /// Removes sessions that ended before `before_nanos`, those created before then that never had a publisher, and
-    /// of the ended ones all but the last [`MAX_ENDED`]. Returns their ids, in order.
+    /// of the ended ones all but the last 4,096. Returns their ids, in order.
     ///
     /// # Errors
     ///

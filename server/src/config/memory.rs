@@ -13,6 +13,9 @@ const ACTOR_BYTES: u64 = 72 * MIB;
 /// Beside its buffers, a subscriber of every frame may hold so much (CONTRACTS D-20).
 const SUBSCRIBER_BYTES: u64 = 256 * KIB;
 
+/// Largest message of a call that does not publish, bytes.
+pub const SMALL_MESSAGE_BYTES: usize = 64 * 1024;
+
 /// Program, database cache, runtime.
 const FIXED_BYTES: u64 = 128 * MIB;
 
@@ -36,8 +39,9 @@ pub fn worst_case(config: &Config) -> Vec<MemoryItem> {
         .connection_window_kib
         .saturating_add(transport.header_list_kib)
         .saturating_add(transport.send_buffer_kib);
-    // One publisher a session is in the middle of a message.
-    let messages = product(product(limits.sessions, limits.message_kib), KIB);
+    // Every call is in the middle of its largest message.
+    let messages = product(limits.publishers, product(limits.message_kib, KIB))
+        .saturating_add(product(limits.calls, SMALL_MESSAGE_BYTES as u64));
     let imports = product(
         product(limits.imports, limits.package_mib),
         IMPORT_COPIES * MIB,
@@ -51,6 +55,10 @@ pub fn worst_case(config: &Config) -> Vec<MemoryItem> {
             product(limits.connections, product(per_connection, KIB)),
         ),
         item("imports", imports),
+        item(
+            "exports",
+            product(product(limits.exports, limits.package_mib), MIB),
+        ),
         item("loaded actors", product(limits.cached_actors, ACTOR_BYTES)),
         item("the program itself", FIXED_BYTES),
     ]

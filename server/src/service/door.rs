@@ -14,6 +14,7 @@ use tonic_health::{ServingStatus, server::HealthReporter};
 use tower_http::catch_panic::CatchPanicLayer;
 
 use super::{
+    calls::{self, Calls},
     grpc::{
         actors::{ActorsGrpc, MAX_CHUNK_BYTES},
         capture::CaptureGrpc,
@@ -23,10 +24,7 @@ use super::{
     },
     http::{self, Doors, GrpcPanic, grpc_only, unknown, with_instance},
 };
-use crate::telemetry::Metrics;
-
-/// Largest request of a service whose messages are small, bytes.
-const SMALL_MESSAGE_BYTES: usize = 64 * 1024;
+use crate::{config::SMALL_MESSAGE_BYTES, telemetry::Metrics};
 
 /// A chunk and what is around it in its message, bytes.
 const CHUNK_MESSAGE_BYTES: usize = MAX_CHUNK_BYTES + 4 * 1024;
@@ -50,6 +48,8 @@ pub struct Services {
     pub curves: CurvesGrpc,
     /// Largest message of a publisher, bytes.
     pub max_message_bytes: usize,
+    /// How many calls may be in progress.
+    pub calls: Calls,
 }
 
 /// Why the router cannot be built.
@@ -95,6 +95,7 @@ pub async fn router(
         .into_axum_router()
         .reset_fallback()
         .layer(CatchPanicLayer::custom(GrpcPanic(metrics.clone())))
+        .layer(middleware::from_fn_with_state(services.calls, calls::admit))
         .layer(middleware::from_fn_with_state(metrics.clone(), grpc_only));
     let router = http::router(doors)
         .merge(grpc)

@@ -4,7 +4,7 @@ pub mod actors;
 pub mod capture;
 pub mod curves;
 mod ending;
-mod refusal;
+pub(super) mod refusal;
 pub mod sessions;
 #[cfg(test)]
 mod stage;

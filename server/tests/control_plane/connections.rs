@@ -95,3 +95,25 @@ async fn a_message_above_the_limit_is_refused_by_the_transport() {
     let refused = stage.sessions().create_session(huge).await;
     assert_eq!(refusal(refused).0, tonic::Code::OutOfRange);
 }
+
+#[tokio::test]
+async fn calls_above_the_limit_are_refused_but_health_still_answers() {
+    let stage = Stage::with(|config| config.limits.calls = 1).await;
+    let mut health = HealthClient::new(stage.channel.clone());
+    let watching = health.watch(HealthCheckRequest::default()).await.unwrap();
+    let list = || frontalis_proto::v1::ListSessionsRequest::default();
+    let refused = stage.sessions().list_sessions(list()).await;
+    assert_eq!(
+        refusal(refused),
+        (tonic::Code::ResourceExhausted, "CALLS".into())
+    );
+    health.check(HealthCheckRequest::default()).await.unwrap();
+    drop(watching);
+    // The reset of the dropped stream is on its way; the place is free once it has arrived.
+    let free = async {
+        while stage.sessions().list_sessions(list()).await.is_err() {
+            tokio::task::yield_now().await;
+        }
+    };
+    timeout(PATIENCE, free).await.unwrap();
+}

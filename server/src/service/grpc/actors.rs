@@ -34,16 +34,21 @@ pub struct ActorsGrpc {
     /// One permit an import, held from its first message to its answer: each may hold a whole package.
     imports: Arc<Semaphore>,
     max_imports: usize,
+    /// One permit an export, held until its last chunk is sent or its stream dropped.
+    exports: Arc<Semaphore>,
+    max_exports: usize,
 }
 
 impl ActorsGrpc {
-    /// Imports run on `workers`, at most `max_imports` at once, each at most `max_package_bytes` long.
+    /// Imports run on `workers`, at most `max_imports` at once, each at most `max_package_bytes` long; packages leave
+    /// at most `max_exports` at once.
     pub fn new(
         store: Store,
         clock: ServerClock,
         workers: Workers,
         max_package_bytes: usize,
         max_imports: usize,
+        max_exports: usize,
     ) -> Self {
         Self {
             store,
@@ -52,6 +57,8 @@ impl ActorsGrpc {
             max_package_bytes,
             imports: Arc::new(Semaphore::new(max_imports)),
             max_imports,
+            exports: Arc::new(Semaphore::new(max_exports)),
+            max_exports,
         }
     }
 
@@ -89,6 +96,9 @@ impl ActorService for ActorsGrpc {
     ) -> Result<Response<Self::ExportActorStream>, Status> {
         let request = request.into_inner();
         let id = id(&request.name)?;
+        let permit = Arc::clone(&self.exports)
+            .try_acquire_owned()
+            .map_err(|_| refusal::limit("EXPORTS", "limits.exports", self.max_exports))?;
         let revision = match request.revision {
             0 => self.store.actor(&id).await?.revision,
             revision => revision,
@@ -96,6 +106,7 @@ impl ActorService for ActorsGrpc {
         let package = Bytes::from(self.store.package(&id, revision).await?);
         let starts = (0..package.len()).step_by(MAX_CHUNK_BYTES);
         let chunks = stream::iter(starts).map(move |start| {
+            let _held = &permit;
             let end = package.len().min(start + MAX_CHUNK_BYTES);
             let chunk = package.slice(start..end).to_vec();
             Ok(v1::ExportActorResponse { chunk })

@@ -94,7 +94,7 @@ pub(super) fn package(error: &PackageError) -> Status {
 }
 
 /// A limit was reached; later there may be room.
-pub(super) fn limit(reason: &'static str, name: &'static str, limit: usize) -> Status {
+pub(in crate::service) fn limit(reason: &'static str, name: &'static str, limit: usize) -> Status {
     Refusal::new(
         Code::ResourceExhausted,
         reason,

@@ -1,5 +1,7 @@
 //! Health, metrics, and what there is to see.
 
+use std::collections::BTreeMap;
+
 use axum::{
     extract::State,
     http::{StatusCode, header},
@@ -91,5 +93,25 @@ fn figures(all: &[SessionStatus]) -> SessionFigures {
             ("sent", subscribers().map(|it| it.sent_samples).sum()),
             ("skipped", subscribers().map(|it| it.skipped_samples).sum()),
         ],
+        latencies: latencies(all),
     }
+}
+
+/// The slowest session's time at each stage: one that cannot keep up shows, however many others can.
+fn latencies(all: &[SessionStatus]) -> Vec<(&'static str, &'static str, f64)> {
+    let mut slowest: BTreeMap<(&'static str, &'static str), f64> = BTreeMap::new();
+    for measured in all.iter().flat_map(|it| &it.latencies) {
+        let latency = &measured.latency;
+        let figures = [
+            ("0.5", latency.p50_micros),
+            ("0.99", latency.p99_micros),
+            ("1", latency.max_micros),
+        ];
+        for (quantile, micros) in figures {
+            let so_far = slowest.entry((measured.stage, quantile)).or_default();
+            *so_far = so_far.max(micros);
+        }
+    }
+    let flat = |((stage, quantile), micros)| (stage, quantile, micros);
+    slowest.into_iter().map(flat).collect()
 }
