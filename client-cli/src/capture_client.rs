@@ -2,6 +2,8 @@
 //!
 //! CONTRACTS D-8, D-9: frames without an acknowledgement wait in a bounded ring; after a cut the client reconnects with
 //! growing waits (O-14), asks where the server stands, and sends on from there, so that every frame takes effect once.
+//! A live publisher that comes back with many frames sends those losslessly first: they are late already, and the limit
+//! on live frames would refuse them.
 //! A publisher that was fenced (D-29) stops for good.
 
 mod publication;
@@ -50,14 +52,14 @@ pub struct CaptureSettings {
 }
 
 impl CaptureSettings {
-    fn start(&self, takeover: bool) -> PublishStart {
+    fn start(&self, takeover: bool, ingest: Ingest) -> PublishStart {
         PublishStart {
             session: self.session.clone(),
             publisher: self.publisher.clone(),
             marker_names: self.marker_names.clone(),
             unit: self.unit.into(),
             takeover,
-            ingest: self.ingest.into(),
+            ingest: ingest.into(),
             image: None,
             rate_hz: self.rate_hz,
         }
@@ -113,7 +115,8 @@ impl CaptureClient {
     ///
     /// When the server cannot be reached or refuses the publication.
     pub async fn start(channel: Channel, settings: CaptureSettings) -> Result<Self, ClientError> {
-        let (stream, first) = open(&channel, settings.start(settings.takeover)).await?;
+        let start = settings.start(settings.takeover, settings.ingest);
+        let (stream, first) = open(&channel, start).await?;
         let shared = Arc::new(Shared::new(RingLimits::for_rate(settings.rate_hz)));
         let started = shared.begin_connection(&first);
         let ingest = settings.ingest;

@@ -15,8 +15,8 @@ use tonic::{
 };
 
 use crate::proto::{
-    PublishImagesRequest, PublishMarkersRequest, PublishResponse, PublishStarted, RejectedFrame,
-    SubscribeRequest, SubscribeResponse, SubscribeStart,
+    Ingest, PublishImagesRequest, PublishMarkersRequest, PublishResponse, PublishStarted,
+    RejectedFrame, SubscribeRequest, SubscribeResponse, SubscribeStart,
     capture_service_server::{CaptureService, CaptureServiceServer},
     curve_service_server::{CurveService, CurveServiceServer},
 };
@@ -59,6 +59,7 @@ pub(crate) struct Record {
     /// Frame numbers that took effect.
     pub effective: Vec<u64>,
     pub takeovers: Vec<bool>,
+    pub ingests: Vec<Ingest>,
     pub subscriptions: Vec<SubscribeStart>,
     pub credits_returned: u32,
     run: u64,
@@ -155,6 +156,7 @@ impl CaptureService for FakeServer {
         let (capture, started) = {
             let mut record = self.record();
             record.takeovers.push(start.takeover);
+            record.ingests.push(start.ingest());
             let capture = record.capture_script.pop_front().unwrap();
             if let Capture::ServeNewRun = capture {
                 record.run += 1;

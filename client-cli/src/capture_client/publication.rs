@@ -14,7 +14,7 @@ use crate::{
     backoff::Backoff,
     error::ClientError,
     proto::{
-        PublishMarkersRequest, PublishResponse, PublishStart,
+        Ingest, PublishMarkersRequest, PublishResponse, PublishStart,
         capture_service_client::CaptureServiceClient,
     },
 };
@@ -26,6 +26,9 @@ const MAX_BATCH_FRAMES: usize = 64;
 const MAX_BATCH_BYTES: usize = 768 << 10;
 /// An empty message keeps the lease, which is at least some seconds long, while nothing is captured.
 const KEEP_ALIVE: Duration = Duration::from_secs(1);
+/// A live publisher that comes back with more frames than this publishes losslessly until it has caught up: half of
+/// what a session's limit of 250 live frames a second lets through at once.
+const CATCH_UP_FRAMES: usize = 125;
 /// How long a server may take to answer the start of a stream.
 const START_TIMEOUT: Duration = Duration::from_secs(10);
 
@@ -99,47 +102,80 @@ impl Publication {
     }
 
     /// Runs until the caller is done and everything is settled, or until it fails for good.
-    pub async fn run(mut self, mut stream: OpenStream) {
-        loop {
-            let cut = match self.pump(stream).await {
-                Ok(()) => return,
-                Err(cut) => cut,
+    pub async fn run(mut self, first: OpenStream) {
+        let mut stream = Some((first, Purpose::Follow));
+        while let Some((open, purpose)) = stream {
+            let next = match self.pump(open, purpose).await {
+                Ok(Closed::Done) => return,
+                Ok(Closed::CaughtUp) => self.reopen().await,
+                Err(cut) => self.reconnect(cut).await,
             };
-            match self.reconnect(cut).await {
-                Ok(Some(again)) => stream = again,
-                Ok(None) => return,
+            stream = match next {
+                Ok(next) => next,
                 Err(failure) => return self.shared.fail(failure),
+            };
+        }
+    }
+
+    /// Follows on after catching up; a failure now is a cut like any other.
+    async fn reopen(&mut self) -> Result<Option<(OpenStream, Purpose)>, ClientError> {
+        let start = self.settings.start(false, self.settings.ingest);
+        match open(&self.channel, start).await {
+            Ok((stream, first)) => {
+                self.shared.begin_connection(&first);
+                Ok(Some((stream, Purpose::Follow)))
             }
+            Err(cut) => self.reconnect(cut).await,
         }
     }
 
     /// Tries again with growing waits; `None` when nothing is left to send.
-    async fn reconnect(&mut self, mut cut: ClientError) -> Result<Option<OpenStream>, ClientError> {
+    async fn reconnect(
+        &mut self,
+        mut cut: ClientError,
+    ) -> Result<Option<(OpenStream, Purpose)>, ClientError> {
         loop {
             if !cut.is_transient() {
                 return Err(cut);
             }
-            {
-                let state = self.shared.lock();
-                if state.is_closing && state.ring.is_empty() {
-                    return Ok(None);
-                }
+            if self.shared.is_over() {
+                return Ok(None);
             }
             tracing::info!(error = %cut, "publication was cut, reconnecting");
             sleep(self.backoff.next_wait(cut.retry_after)).await;
-            match open(&self.channel, self.settings.start(false)).await {
+            let (ingest, purpose) = self.resumption();
+            match open(&self.channel, self.settings.start(false, ingest)).await {
                 Ok((stream, first)) => {
                     self.shared.begin_connection(&first);
                     self.shared.lock().report.reconnections += 1;
-                    return Ok(Some(stream));
+                    return Ok(Some((stream, purpose)));
                 }
                 Err(error) => cut = error,
             }
         }
     }
 
+    /// How to come back: losslessly at first, when much has to be sent.
+    fn resumption(&self) -> (Ingest, Purpose) {
+        let n_waiting = self.shared.lock().ring.len();
+        if self.settings.ingest != Ingest::Lossless && n_waiting > CATCH_UP_FRAMES {
+            (Ingest::Lossless, Purpose::CatchUp)
+        } else {
+            (self.settings.ingest, Purpose::Follow)
+        }
+    }
+
+    fn closed(&self) -> Closed {
+        let state = self.shared.lock();
+        if state.is_closing && !state.ring.has_unsent() {
+            Closed::Done
+        } else {
+            Closed::CaughtUp
+        }
+    }
+
     /// Sends and listens on one connection. `Ok` when the server closed it after we did.
-    async fn pump(&mut self, stream: OpenStream) -> Result<(), ClientError> {
+    async fn pump(&mut self, stream: OpenStream, purpose: Purpose) -> Result<Closed, ClientError> {
         let OpenStream {
             requests,
             mut responses,
@@ -152,7 +188,8 @@ impl Publication {
         loop {
             let has_unsent = {
                 let state = self.shared.lock();
-                if state.is_closing && !state.ring.has_unsent() {
+                let has_purpose = purpose == Purpose::Follow && !state.is_closing;
+                if !has_purpose && !state.ring.has_unsent() {
                     is_half_closed |= requests.take().is_some();
                 }
                 state.ring.has_unsent()
@@ -163,7 +200,7 @@ impl Publication {
                         self.backoff.reset();
                         self.shared.take_response(response);
                     }
-                    None if is_half_closed => return Ok(()),
+                    None if is_half_closed => return Ok(self.closed()),
                     None => return Err(closed_early()),
                 },
                 sent = send_batch(&self.shared, requests.as_ref()), if has_unsent && requests.is_some() => {
@@ -183,6 +220,23 @@ impl Publication {
             }
         }
     }
+}
+
+/// What a connection is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Purpose {
+    /// Frames as they come, until the caller is done.
+    Follow,
+    /// Only what waited while there was no connection.
+    CatchUp,
+}
+
+/// Why a connection was closed in order.
+enum Closed {
+    /// The caller is done and everything went out.
+    Done,
+    /// What had waited went out; new frames follow on another connection.
+    CaughtUp,
 }
 
 fn closed_early() -> ClientError {

@@ -64,6 +64,12 @@ impl Shared {
         report
     }
 
+    /// The caller is done, and nothing is left to send.
+    pub fn is_over(&self) -> bool {
+        let state = self.lock();
+        state.is_closing && state.ring.is_empty()
+    }
+
     pub fn fail(&self, failure: ClientError) {
         self.lock().failure = Some(failure);
         self.room.notify_waiters();

@@ -141,6 +141,30 @@ async fn d9_a_live_publisher_that_cannot_reach_the_server_reports_the_gap() {
 }
 
 #[tokio::test(start_paused = true)]
+async fn a_live_publisher_that_was_away_for_long_catches_up_losslessly() {
+    let refuse = || Capture::Refuse(Status::unavailable("starting"));
+    let mut script = vec![broken(1, 1)];
+    script.extend((0..7).map(|_| refuse()));
+    script.extend([Capture::Serve, Capture::Serve]);
+    let server = FakeServer::with_capture(script);
+    let client = CaptureClient::start(server.channel(), settings(Ingest::Live))
+        .await
+        .unwrap();
+    for number in 1..=600 {
+        client.send(frame(number)).await.unwrap();
+        tokio::time::sleep(Duration::from_micros(16_667)).await;
+    }
+    let published = client.finish().await;
+    assert_eq!(published.failure, None);
+    assert_eq!(published.report.accepted_frames, 600);
+    let record = server.record();
+    assert_eq!(record.effective, all(600));
+    let last_two = &record.ingests[record.ingests.len() - 2..];
+    assert_eq!(last_two, [Ingest::Lossless, Ingest::Live]);
+    assert!(!record.arrived.last().unwrap().is_empty());
+}
+
+#[tokio::test(start_paused = true)]
 async fn the_first_refusal_is_told_at_once() {
     let owned = refusal_for_tests(Code::FailedPrecondition, "SESSION_OWNED");
     let server = FakeServer::with_capture([Capture::Refuse(owned)]);

@@ -2,6 +2,7 @@
 
 mod scoreboard;
 mod server_process;
+mod view;
 
 use std::{net::SocketAddr, path::PathBuf, process::ExitCode, sync::Arc, time::Duration};
 
@@ -10,7 +11,7 @@ use clap::Args;
 use frontalis_analysis::{face::actor::Actor, synthesis::reference_face};
 use frontalis_client::{
     capture_client::{CaptureClient, Published},
-    curve_client::{CurveClient, CurveEvent, CurveSettings, StartAt, Wanted},
+    curve_client::{CurveClient, CurveSettings, StartAt, Wanted},
     error::ClientError,
     proto,
     simulated_stage::{MAX_SECONDS, SimulatedStage, StageSettings},
@@ -23,6 +24,7 @@ use tonic::{Code, transport::Channel};
 use self::{
     scoreboard::{Scoreboard, Summary},
     server_process::ServerProcess,
+    view::View,
 };
 use super::{
     Context, actor, actor_name,
@@ -30,7 +32,6 @@ use super::{
     numbers, session_name,
     stage_run::{self, StageRun},
 };
-use crate::terminal::{self, bars::Picture, plain::PlainLines, say, screen::Screen};
 
 const ACTOR: &str = "reference";
 const SESSION: &str = "demo";
@@ -192,7 +193,7 @@ impl Run {
         server: &mut ServerProcess,
         interrupt: &mut Interrupt,
     ) -> anyhow::Result<()> {
-        let mut view = View::choose(context, server.url())?;
+        let mut view = View::choose(context, server.url(), SESSION)?;
         let mut tick = interval(TICK);
         tick.set_missed_tick_behavior(MissedTickBehavior::Skip);
         loop {
@@ -271,47 +272,4 @@ async fn publish(
     })
     .await;
     (run, publication.finish().await)
-}
-
-/// Bars for a person, lines for a log.
-enum View {
-    Bars {
-        screen: Screen,
-        picture: Box<Picture>,
-    },
-    Lines(PlainLines),
-    Nothing,
-}
-
-impl View {
-    fn choose(context: &Context, url: &str) -> anyhow::Result<Self> {
-        if context.json {
-            return Ok(Self::Nothing);
-        }
-        if terminal::is_interactive() {
-            return Ok(Self::Bars {
-                screen: Screen::open()?,
-                picture: Box::new(Picture::new(url, SESSION)),
-            });
-        }
-        say(format_args!("server at {url}, session {SESSION}"))?;
-        Ok(Self::Lines(PlainLines::default()))
-    }
-
-    fn take(&mut self, event: CurveEvent) -> anyhow::Result<()> {
-        match self {
-            Self::Bars { picture, .. } => picture.take(event),
-            Self::Lines(lines) => lines.take(&event)?,
-            Self::Nothing => {}
-        }
-        Ok(())
-    }
-
-    fn tick(&mut self) -> anyhow::Result<bool> {
-        if let Self::Bars { screen, picture } = self {
-            screen.draw(|it| picture.draw(it))?;
-            return Ok(Screen::wants_to_quit()?);
-        }
-        Ok(false)
-    }
 }
