@@ -347,3 +347,6 @@ fn in_actor_order(
     let position = |idx: &Option<usize>| idx.and_then(|it| positions.get(it).copied().flatten());
     stream_idx_of_marker.iter().map(position).collect()
 }
+
+#[cfg(test)]
+mod tests;

@@ -113,6 +113,7 @@ pub struct Watermarks {
 }
 
 /// A publisher's hold on a session. Dropping it keeps the lease until it times out; [`Self::release`] gives it back.
+#[derive(Debug)]
 pub struct Publication {
     pub(super) session: Arc<Shared>,
     pub(super) mailbox: Arc<Mailbox>,

@@ -43,7 +43,7 @@ pub(super) async fn run(shared: Arc<Shared>, spec: SessionSpec) {
 }
 
 /// After a failure nothing is solved; the session can only end.
-async fn wait_for_the_end(shared: &Shared) {
+pub(super) async fn wait_for_the_end(shared: &Shared) {
     loop {
         let work = shared.intake().pop();
         match work {
@@ -57,7 +57,7 @@ async fn wait_for_the_end(shared: &Shared) {
     }
 }
 
-async fn fail(shared: &Shared, reason: &str) {
+pub(super) async fn fail(shared: &Shared, reason: &str) {
     tracing::error!(session = %shared.id, reason, "session failed");
     let reason = reason.to_owned();
     shared.intake().close(Closed::Failed {
