@@ -1,4 +1,13 @@
 //! The promises of the service, each kept by a real server, a real client and real gRPC; one module a promise.
 #![expect(clippy::unwrap_used, reason = "a failing test is its own report")]
 
+mod bad_input;
+mod curves_http;
+mod demo;
+mod drain;
+mod late_renderer;
 mod layering;
+mod load;
+mod python_client;
+mod real_takes;
+mod restart;

@@ -1,1 +1,35 @@
-//! x
+//! What the end-to-end tests stand on: a real server on port 0, a performance with known curves, and plain clients.
+//!
+//! The clients are the generated stubs with a little memory, not the client library: a test must be able to break the
+//! contract that the library keeps.
+#![expect(
+    clippy::unwrap_used,
+    clippy::missing_panics_doc,
+    reason = "a test that fails here is its own report"
+)]
+
+mod control_session;
+mod eventually;
+mod http;
+mod load;
+mod package;
+mod performance;
+mod problem;
+mod programs;
+mod publisher;
+mod real_time;
+mod server;
+mod shared_data;
+mod subscriber;
+
+pub use control_session::{ControlReport, ControlSession};
+pub use http::{HttpAnswer, http_get};
+pub use load::{LoadProfile, LoadReport};
+pub use package::{PackageFiles, glb, reference_package, toy_files, toy_glb, toy_json, zip};
+pub use performance::TestPerformance;
+pub use problem::{Problem, assert_refused};
+pub use programs::program;
+pub use publisher::{PublishReport, Publisher};
+pub use server::TestServer;
+pub use shared_data::data_dir;
+pub use subscriber::{Heard, Subscriber, every_frame, latest};

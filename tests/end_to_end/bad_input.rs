@@ -1,0 +1,70 @@
+//! Every row of the bad-input table: the answer it gets, and a control session on the same server that loses nothing.
+//!
+//! Tests are named after their row: `a3_…`.
+
+mod actor_packages;
+mod leases;
+mod marker_frames;
+mod names;
+mod packages_glb;
+mod positions;
+mod protocol_order;
+
+use harness::{ControlSession, Publisher, Subscriber, TestPerformance, TestServer, every_frame};
+
+/// The session that the bad input goes to.
+const SUBJECT: &str = "sessions/subject";
+
+/// Frames that a well-behaved publisher has sent before the bad ones: the neutral face is known.
+const GOOD_FRAMES: u64 = 30;
+
+/// A server with the reference face, a session to mistreat, and a session that must not notice.
+struct Stage {
+    server: TestServer,
+    performance: TestPerformance,
+}
+
+impl Stage {
+    /// A publisher of the subject whose first [`GOOD_FRAMES`] frames were taken.
+    async fn publisher(&self) -> Publisher {
+        let start = self.performance.start(SUBJECT, "camera-1");
+        let mut publisher = Publisher::open(&self.server, start).await.unwrap();
+        publisher
+            .send(self.performance.frames(1..=GOOD_FRAMES))
+            .await;
+        publisher.accepted(GOOD_FRAMES).await.unwrap();
+        publisher
+    }
+
+    /// A subscriber of every frame of the subject that has heard the samples of the good frames.
+    async fn subscriber(&self) -> Subscriber {
+        let mut subscriber = Subscriber::open(&self.server, every_frame(SUBJECT))
+            .await
+            .unwrap();
+        let samples = subscriber.samples_through(GOOD_FRAMES).await.unwrap();
+        assert_eq!(samples.len() as u64, GOOD_FRAMES);
+        subscriber
+    }
+}
+
+/// Runs one row beside the control session, and fails when that loses a frame.
+async fn beside_a_control_session(row: &str, test: impl AsyncFnOnce(&Stage)) {
+    let server = TestServer::start().await;
+    server.import_reference().await;
+    server
+        .create_session("subject", "actors/reference")
+        .await
+        .unwrap();
+    let control = ControlSession::start(&server).await;
+    let stage = Stage {
+        server,
+        performance: TestPerformance::reference(),
+    };
+    test(&stage).await;
+    let report = control.finish(&stage.server).await;
+    println!(
+        "{row}: control session {} frames, none lost, p99 {:.0} us",
+        report.n_frames, report.p99_micros
+    );
+    stage.server.stop().await;
+}

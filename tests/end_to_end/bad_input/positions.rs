@@ -1,0 +1,127 @@
+//! Rows I11 and I12: positions that do not exist, credits that nobody can read.
+
+use frontalis_proto::v1::SubscribeStart;
+use harness::{
+    Heard, Problem, Publisher, Subscriber, TestPerformance, TestServer, every_frame, latest,
+};
+use tonic::{Code, Status};
+
+use super::{GOOD_FRAMES, SUBJECT, beside_a_control_session};
+
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn i11_a_position_beyond_the_newest_sample_names_what_there_is() {
+    beside_a_control_session("I11 beyond", async |stage| {
+        let _publisher = stage.publisher().await;
+        stage.subscriber().await;
+        for sequence in [GOOD_FRAMES + 2, u64::MAX] {
+            let refused = refused_from(&stage.server, sequence).await;
+            assert_out_of_range(&refused, &["1", &GOOD_FRAMES.to_string()]);
+        }
+        // The next sample is a position: it will come.
+        let next = SubscribeStart {
+            from_sequence: GOOD_FRAMES + 1,
+            from_oldest: false,
+            ..every_frame(SUBJECT)
+        };
+        Subscriber::open(&stage.server, next).await.unwrap();
+    })
+    .await;
+}
+
+/// Frames whose samples do not fit the smallest window.
+const TOO_MANY_FRAMES: u64 = 12_000;
+
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn i11_a_position_that_is_no_longer_kept_names_the_first_that_is() {
+    let server = TestServer::start_with(|config| config.limits.window_mib = 1).await;
+    server.import_reference().await;
+    server
+        .create_session("subject", "actors/reference")
+        .await
+        .unwrap();
+    let performance = TestPerformance::reference();
+    let start = performance.start(SUBJECT, "camera-1");
+    let mut publisher = Publisher::open(&server, start).await.unwrap();
+    for first in (1..=TOO_MANY_FRAMES).step_by(100) {
+        publisher.send(performance.frames(first..=first + 99)).await;
+        publisher.accepted(first + 99).await.unwrap();
+    }
+    let mut subscriber = Subscriber::open(&server, every_frame(SUBJECT))
+        .await
+        .unwrap();
+    let oldest = subscriber.sample().await.unwrap().sequence;
+    assert!(oldest > 1, "everything fits the window");
+    let refused = refused_from(&server, 1).await;
+    assert_eq!(
+        Problem::of(&refused).code,
+        Code::OutOfRange,
+        "{}",
+        refused.message()
+    );
+    server.stop().await;
+}
+
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn i12_credits_beyond_32_are_clamped() {
+    beside_a_control_session("I12", async |stage| {
+        let mut greedy = Subscriber::open(&stage.server, latest(SUBJECT, u32::MAX))
+            .await
+            .unwrap();
+        for _ in 0..50 {
+            greedy.grant(u32::MAX).await;
+        }
+        // Two heartbeats later the server has read all of them.
+        for _ in 0..3 {
+            let heard = greedy.next().await.unwrap().unwrap();
+            assert!(matches!(heard, Heard::State(_)), "{heard:?}");
+        }
+        let mut publisher = stage.publisher().await;
+        for number in GOOD_FRAMES + 1..=GOOD_FRAMES + 300 {
+            publisher.send(vec![stage.performance.frame(number)]).await;
+        }
+        publisher.accepted(GOOD_FRAMES + 300).await.unwrap();
+        let (mut received, mut silent) = (0, 0);
+        while silent < 2 {
+            match greedy.next().await.unwrap().unwrap() {
+                Heard::Sample(_) => (received, silent) = (received + 1, 0),
+                // A change of state, then heartbeats: nothing has been sent for half a second.
+                Heard::State(_) => silent += 1,
+                other => panic!("{other:?}"),
+            }
+            assert!(received <= 32, "{received} samples in flight");
+        }
+        // What it gets for one more credit is the newest.
+        greedy.grant(1).await;
+        assert_eq!(greedy.sample().await.unwrap().frame, GOOD_FRAMES + 300);
+        assert!(
+            greedy.skipped_samples >= 300 - 33,
+            "{} skipped",
+            greedy.skipped_samples
+        );
+    })
+    .await;
+}
+
+async fn refused_from(server: &TestServer, sequence: u64) -> Status {
+    let start = SubscribeStart {
+        from_sequence: sequence,
+        from_oldest: false,
+        ..every_frame(SUBJECT)
+    };
+    match Subscriber::open(server, start).await {
+        Err(status) => status,
+        Ok(mut subscriber) => subscriber.sample().await.unwrap_err(),
+    }
+}
+
+fn assert_out_of_range(status: &Status, positions: &[&str]) {
+    let problem = Problem::of(status);
+    assert_eq!(problem.code, Code::OutOfRange, "{problem:?}");
+    assert!(!problem.reason.is_empty(), "{problem:?}");
+    for position in positions {
+        assert!(
+            problem.message.contains(position),
+            "{problem:?} does not name {position}"
+        );
+    }
+}

@@ -1,0 +1,26 @@
+//! The programs under test, built as a person would build them.
+
+use std::{
+    path::{Path, PathBuf},
+    process::Command,
+};
+
+/// The path of one of the workspace's programs, `frontalis` or `frontalis-server`, brought up to date.
+pub fn program(name: &str) -> PathBuf {
+    let target = target_folder();
+    let built = Command::new(env!("CARGO"))
+        .current_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join(".."))
+        .args(["build", "--quiet", "--locked", "--bin", name])
+        .arg("--target-dir")
+        .arg(&target)
+        .status()
+        .unwrap();
+    assert!(built.success(), "{name} does not build");
+    target.join("debug").join(name)
+}
+
+/// The target folder that this test itself was built in: `target/debug/deps/end_to_end-…` is three levels below it.
+fn target_folder() -> PathBuf {
+    let test = std::env::current_exe().unwrap();
+    test.ancestors().nth(3).unwrap().to_owned()
+}

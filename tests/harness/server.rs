@@ -1,0 +1,223 @@
+//! A whole server inside the test: the real listener on port 0, a folder of its own, stopped by a value.
+
+use std::net::SocketAddr;
+
+use frontalis_proto::v1::{
+    Actor, CreateSessionRequest, EndSessionRequest, GetSessionRequest, ImportActorRequest,
+    ImportActorResponse, ImportActorStart, Session, SessionSettings,
+    actor_service_client::ActorServiceClient, session_service_client::SessionServiceClient,
+};
+use frontalis_server::{Server, config::Config};
+use tempfile::TempDir;
+use tokio::net::TcpListener;
+use tokio_util::sync::CancellationToken;
+use tonic::{
+    Status,
+    transport::{Channel, Endpoint},
+};
+
+/// Size of an import's chunks.
+const CHUNK_BYTES: usize = 256 * 1024;
+
+/// A server that lives as long as the test wants it to.
+pub struct TestServer {
+    config: Config,
+    folder: TempDir,
+    shutdown: CancellationToken,
+    running: Server,
+}
+
+impl TestServer {
+    /// Starts with the defaults, an empty folder and a free port.
+    pub async fn start() -> Self {
+        Self::start_with(|_| {}).await
+    }
+
+    /// Starts with other settings than the defaults.
+    pub async fn start_with(change: impl FnOnce(&mut Config)) -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        let mut config = Config {
+            listen: SocketAddr::from(([127, 0, 0, 1], 0)),
+            data_dir: folder.path().to_str().unwrap().to_owned(),
+            ..Config::default()
+        };
+        change(&mut config);
+        let (running, shutdown) = spawn(&config).await;
+        Self {
+            config,
+            folder,
+            shutdown,
+            running,
+        }
+    }
+
+    /// Drains the server and waits until it is gone.
+    pub async fn stop(self) -> TempDir {
+        self.begin_drain();
+        assert!(
+            self.running.stopped().await,
+            "the drain took longer than its grace"
+        );
+        self.folder
+    }
+
+    /// Drains the server and starts another on the same folder and the same port.
+    pub async fn restart(self) -> Self {
+        let (address, mut config) = (self.address(), self.config.clone());
+        let folder = self.stop().await;
+        config.listen = address;
+        let (running, shutdown) = spawn(&config).await;
+        Self {
+            config,
+            folder,
+            shutdown,
+            running,
+        }
+    }
+
+    /// What SIGTERM does, without waiting.
+    pub fn begin_drain(&self) {
+        self.shutdown.cancel();
+    }
+
+    /// Where it listens.
+    pub fn address(&self) -> SocketAddr {
+        self.running.address()
+    }
+
+    /// Where it listens, as a client writes it.
+    pub fn url(&self) -> String {
+        format!("http://{}", self.address())
+    }
+
+    /// A connection of its own.
+    pub async fn channel(&self) -> Channel {
+        Endpoint::from_shared(self.url())
+            .unwrap()
+            .tcp_nodelay(true)
+            .connect()
+            .await
+            .unwrap()
+    }
+
+    /// A client of the actors.
+    pub async fn actors(&self) -> ActorServiceClient<Channel> {
+        ActorServiceClient::new(self.channel().await)
+    }
+
+    /// A client of the sessions.
+    pub async fn sessions(&self) -> SessionServiceClient<Channel> {
+        SessionServiceClient::new(self.channel().await)
+    }
+
+    /// Imports a package in chunks.
+    ///
+    /// # Errors
+    ///
+    /// When the server refuses it.
+    pub async fn import(&self, id: &str, package: &[u8]) -> Result<ImportActorResponse, Status> {
+        let start = ImportActorStart {
+            actor_id: id.to_owned(),
+            ..ImportActorStart::default()
+        };
+        self.import_as(start, package).await
+    }
+
+    /// Imports a package with everything that can be said about it.
+    ///
+    /// # Errors
+    ///
+    /// When the server refuses it.
+    pub async fn import_as(
+        &self,
+        start: ImportActorStart,
+        package: &[u8],
+    ) -> Result<ImportActorResponse, Status> {
+        let first = ImportActorRequest {
+            start: Some(start),
+            chunk: Vec::new(),
+        };
+        let chunks = package.chunks(CHUNK_BYTES).map(|chunk| ImportActorRequest {
+            start: None,
+            chunk: chunk.to_vec(),
+        });
+        let messages: Vec<_> = std::iter::once(first).chain(chunks).collect();
+        let answer = self
+            .actors()
+            .await
+            .import_actor(tokio_stream::iter(messages))
+            .await?;
+        Ok(answer.into_inner())
+    }
+
+    /// Imports the reference face as `actors/reference`.
+    pub async fn import_reference(&self) -> Actor {
+        let package = crate::package::reference_package();
+        self.import("reference", &package)
+            .await
+            .unwrap()
+            .actor
+            .unwrap()
+    }
+
+    /// Creates a session of an actor, markers, with the default settings.
+    ///
+    /// # Errors
+    ///
+    /// When the server refuses it.
+    pub async fn create_session(&self, id: &str, actor: &str) -> Result<Session, Status> {
+        self.create_session_with(id, actor, SessionSettings::default())
+            .await
+    }
+
+    /// Creates a session of an actor, markers.
+    ///
+    /// # Errors
+    ///
+    /// When the server refuses it.
+    pub async fn create_session_with(
+        &self,
+        id: &str,
+        actor: &str,
+        settings: SessionSettings,
+    ) -> Result<Session, Status> {
+        let request = CreateSessionRequest {
+            session_id: id.to_owned(),
+            actor: actor.to_owned(),
+            kind: frontalis_proto::v1::CaptureKind::Markers.into(),
+            settings: Some(settings),
+            display_name: String::new(),
+        };
+        let answer = self.sessions().await.create_session(request).await?;
+        Ok(answer.into_inner().session.unwrap())
+    }
+
+    /// The session as it is now.
+    pub async fn session(&self, name: &str) -> Session {
+        let name = name.to_owned();
+        let answer = self
+            .sessions()
+            .await
+            .get_session(GetSessionRequest { name })
+            .await;
+        answer.unwrap().into_inner().session.unwrap()
+    }
+
+    /// Ends a session.
+    pub async fn end_session(&self, name: &str) -> Session {
+        let name = name.to_owned();
+        let answer = self
+            .sessions()
+            .await
+            .end_session(EndSessionRequest { name })
+            .await;
+        answer.unwrap().into_inner().session.unwrap()
+    }
+}
+
+async fn spawn(config: &Config) -> (Server, CancellationToken) {
+    let listener = TcpListener::bind(config.listen).await.unwrap();
+    let shutdown = CancellationToken::new();
+    let running = frontalis_server::run(config.clone(), listener, shutdown.clone());
+    (running.await.unwrap(), shutdown)
+}
