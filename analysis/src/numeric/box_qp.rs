@@ -376,3 +376,73 @@ fn subtract_multiple(y: &mut [f64], a: f64, x: &[f64]) {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use rand::{RngExt as _, SeedableRng as _};
+    use rand_pcg::Pcg64;
+
+    use super::*;
+
+    /// Q = AᵀA + I/100 with random A, and a c that leaves about half of the unknowns at bounds.
+    fn random(m: usize, rng: &mut Pcg64) -> (BoxQp, Vec<f64>) {
+        let a = nalgebra::DMatrix::from_fn(m, m, |_, _| rng.random_range(-1.0..1.0));
+        let q = a.tr_mul(&a) + nalgebra::DMatrix::identity(m, m) * 0.01;
+        let mut qp = BoxQp::new(m);
+        let stride = qp.stride();
+        qp.set_hessian(|it| {
+            for (to, from) in it.chunks_exact_mut(stride).zip(q.column_iter()) {
+                to[..m].copy_from_slice(from.as_slice());
+            }
+        });
+        let c = (0..m).map(|_| rng.random_range(-3.0..3.0)).collect();
+        (qp, c)
+    }
+
+    #[test]
+    fn the_primal_method_alone_comes_to_the_same_solution() {
+        let mut rng = Pcg64::seed_from_u64(3);
+        for m in 1..=40 {
+            let (mut qp, c) = random(m, &mut rng);
+            let mut together = vec![0.0; m];
+            let report = qp.solve(&c, &mut together).unwrap();
+            assert!(report.kkt_residual <= 1e-10, "{report:?}");
+            let mut alone: Vec<f64> = (0..m).map(|_| rng.random_range(-0.5..1.5)).collect();
+            qp.start(&mut alone);
+            let report = qp.solve_primal(&c, &mut alone).unwrap();
+            assert!(report.kkt_residual <= 1e-10, "{report:?}");
+            for (a, b) in together.iter().zip(&alone) {
+                assert!((a - b).abs() < 1e-9, "m {m}: {a} {b}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_fixed_unknown_stays_and_the_others_take_it_into_account() {
+        let mut rng = Pcg64::seed_from_u64(4);
+        let (mut qp, c) = random(6, &mut rng);
+        qp.set_bounds(2, 0.4, 0.4);
+        let mut x = vec![0.0; 6];
+        let report = qp.solve(&c, &mut x).unwrap();
+        assert_eq!(x[2].to_bits(), 0.4_f64.to_bits());
+        assert!(report.kkt_residual <= 1e-10);
+    }
+
+    #[test]
+    fn an_undefined_start_and_an_empty_problem_do_no_harm() {
+        let mut rng = Pcg64::seed_from_u64(5);
+        let (mut qp, c) = random(4, &mut rng);
+        let mut x = vec![f64::NAN; 4];
+        qp.solve(&c, &mut x).unwrap();
+        assert!(x.iter().all(|it| (0.0..=1.0).contains(it)));
+        assert!(BoxQp::new(0).solve(&[], &mut []).is_ok());
+    }
+
+    #[test]
+    fn a_problem_that_is_not_convex_is_refused() {
+        let mut qp = BoxQp::new(1);
+        qp.set_hessian(|it| it[0] = -1.0);
+        let mut x = [0.5];
+        assert_eq!(qp.solve(&[1.0], &mut x), Err(BoxQpError::NotConvex));
+    }
+}
