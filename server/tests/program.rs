@@ -1,0 +1,130 @@
+//! The program as an operator meets it: its first line, its last line, its exit code.
+
+#![expect(
+    clippy::unwrap_used,
+    reason = "a test may unwrap: its failure is the report"
+)]
+
+use std::{
+    io::{BufRead as _, BufReader},
+    process::{Child, Command, Output, Stdio},
+};
+
+fn program(arguments: &[&str]) -> Command {
+    let mut command = Command::new(env!("CARGO_BIN_EXE_frontalis-server"));
+    command.args(arguments).env_clear();
+    command
+}
+
+fn run(arguments: &[&str]) -> Output {
+    program(arguments).output().unwrap()
+}
+
+fn error_line(output: &Output) -> String {
+    assert_eq!(output.status.code(), Some(1));
+    let text = String::from_utf8(output.stderr.clone()).unwrap();
+    assert_eq!(text.lines().count(), 1, "{text}");
+    text
+}
+
+/// Starts a server on a free port; its child process and its address.
+fn start(data_dir: &str) -> (Child, String) {
+    let arguments = [
+        "--listen",
+        "127.0.0.1:0",
+        "--log",
+        "warn",
+        "--data-dir",
+        data_dir,
+    ];
+    let mut child = program(&arguments).stdout(Stdio::piped()).spawn().unwrap();
+    let mut line = String::new();
+    BufReader::new(child.stdout.take().unwrap())
+        .read_line(&mut line)
+        .unwrap();
+    let address = line
+        .trim()
+        .strip_prefix("listening on http://")
+        .unwrap()
+        .to_owned();
+    (child, address)
+}
+
+fn send(signal: &str, child: &Child) {
+    let id = child.id().to_string();
+    assert!(
+        Command::new("kill")
+            .args([signal, &id])
+            .status()
+            .unwrap()
+            .success()
+    );
+}
+
+#[test]
+fn a_busy_port_is_said_in_one_line() {
+    let busy = std::net::TcpListener::bind("127.0.0.1:0").unwrap();
+    let address = busy.local_addr().unwrap().to_string();
+    let line = error_line(&run(&[
+        "--listen",
+        &address,
+        "--data-dir",
+        ":memory:",
+        "--log",
+        "error",
+    ]));
+    assert!(line.contains(&format!("{address} is in use")), "{line}");
+}
+
+#[test]
+fn an_address_that_others_can_reach_is_refused() {
+    let line = error_line(&run(&["--listen", "0.0.0.0:0"]));
+    assert!(line.contains("--allow-insecure"), "{line}");
+}
+
+#[test]
+fn an_unknown_key_is_named() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = dir.path().join("f.toml");
+    std::fs::write(&path, "[limits]\nsesions = 3\n").unwrap();
+    let output = run(&["--config", path.to_str().unwrap()]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(
+        String::from_utf8(output.stderr)
+            .unwrap()
+            .contains("sesions")
+    );
+}
+
+#[test]
+fn the_documented_configuration_is_checked_and_printed() {
+    let path = concat!(env!("CARGO_MANIFEST_DIR"), "/../deploy/frontalis.toml");
+    let output = run(&["--check", "--config", path]);
+    assert!(output.status.success());
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert!(text.contains("listen = \"127.0.0.1:7400\""), "{text}");
+    assert!(text.contains("of a budget of 12288 MiB"), "{text}");
+}
+
+#[test]
+fn a_second_server_on_the_same_data_is_refused_and_the_first_ends_with_zero_on_sigterm() {
+    let dir = tempfile::tempdir().unwrap();
+    let data_dir = dir.path().to_str().unwrap();
+    let (mut first, address) = start(data_dir);
+    assert!(address.starts_with("127.0.0.1:"));
+    let second = run(&[
+        "--listen",
+        "127.0.0.1:0",
+        "--log",
+        "error",
+        "--data-dir",
+        data_dir,
+    ]);
+    let line = error_line(&second);
+    assert!(line.contains("in use by another server (process"), "{line}");
+    send("-TERM", &first);
+    assert_eq!(first.wait().unwrap().code(), Some(0));
+    let (mut third, _) = start(data_dir);
+    send("-INT", &third);
+    assert_eq!(third.wait().unwrap().code(), Some(0));
+}
