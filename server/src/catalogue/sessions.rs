@@ -320,7 +320,16 @@ fn select(
     let mut statement =
         connection.prepare(&format!("SELECT {COLUMNS} FROM sessions WHERE {condition}"))?;
     let rows = statement.query_map(values, raw)?;
-    rows.map(|it| it?.parse()).collect()
+    // A row that cannot be read costs its session, never the server or the others.
+    let readable = |raw: RawSession| {
+        let id = raw.id.clone();
+        let parsed = raw.parse();
+        parsed
+            .inspect_err(|error| tracing::error!(session = %id, %error, "left out"))
+            .ok()
+    };
+    let found = rows.collect::<Result<Vec<_>, _>>()?;
+    Ok(found.into_iter().filter_map(readable).collect())
 }
 
 struct RawSession {
@@ -355,7 +364,12 @@ impl RawSession {
     fn parse(self) -> Result<SessionRow, CatalogueError> {
         let actor = ActorId::parse(&self.actor)
             .map_err(|_| CatalogueError::Unreadable { what: "actor id" })?;
-        let alignment = self.alignment.as_deref().map(StoredAlignment::from_text);
+        // Without its alignment a session aligns again, which is better than no session.
+        let alignment = self.alignment.as_deref().and_then(|text| {
+            StoredAlignment::from_text(text)
+                .inspect_err(|error| tracing::error!(session = %self.id, %error, "aligns again"))
+                .ok()
+        });
         Ok(SessionRow {
             session: NewSession {
                 id: session_id(&self.id)?,
@@ -368,7 +382,7 @@ impl RawSession {
             epoch: self.epoch.unsigned_abs(),
             create_time_nanos: self.create_time_nanos,
             end_time_nanos: self.end_time_nanos,
-            alignment: alignment.transpose()?,
+            alignment,
         })
     }
 }

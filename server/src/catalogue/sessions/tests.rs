@@ -211,3 +211,18 @@ fn a_session_of_a_missing_revision_is_refused() {
     ));
     catalogue.update_session(&id, &settings, 1).unwrap();
 }
+
+#[test]
+fn a_row_that_cannot_be_read_costs_no_other_session() {
+    let catalogue = catalogue();
+    for id in ["aligned", "broken", "whole"] {
+        catalogue.create_session(&session(id), 0).unwrap();
+    }
+    let damage = |statement: &str| catalogue.connection().execute(statement, []).unwrap();
+    damage("UPDATE sessions SET settings = '{}' WHERE id = 'broken'");
+    damage("UPDATE sessions SET alignment = 'x' WHERE id = 'aligned'");
+    let rows = catalogue.begin_runs().unwrap();
+    let left: Vec<_> = rows.iter().map(|it| it.session.id.as_str()).collect();
+    assert_eq!(left, ["aligned", "whole"]);
+    assert_eq!(rows[0].alignment, None);
+}
