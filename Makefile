@@ -21,7 +21,7 @@ help: ## This list
 
 .PHONY: demo
 demo: ## Build (release), start a server and a simulated stage, show the curves; DEMO_SECONDS=10 ends by itself
-	@cargo build --release --quiet --bin frontalis --bin frontalis-server
+	cargo build --release --bin frontalis --bin frontalis-server
 	@exec target/release/frontalis demo --listen $(DEMO_LISTEN) --data-dir ./demo-data --seconds $(DEMO_SECONDS)
 
 .PHONY: clean-demo
@@ -85,7 +85,7 @@ deny-if-installed:
 
 .PHONY: bench
 bench: ## CPU time of the solve, the stage and the alignment, one thread
-	cargo bench --workspace --benches
+	cargo bench --workspace --bench "*"
 
 .PHONY: bench-load
 bench-load: ## 64 sessions at 120 Hz with a subscriber each, 30 s: losses and latency
