@@ -10,6 +10,7 @@ mod packages_glb;
 mod positions;
 mod protocol_order;
 
+use frontalis_server::config::Config;
 use harness::{ControlSession, Publisher, Subscriber, TestPerformance, TestServer, every_frame};
 
 /// The session that the bad input goes to.
@@ -49,7 +50,16 @@ impl Stage {
 
 /// Runs one row beside the control session, and fails when that loses a frame.
 async fn beside_a_control_session(row: &str, test: impl AsyncFnOnce(&Stage)) {
-    let server = TestServer::start().await;
+    beside_a_control_session_with(row, |_| {}, test).await;
+}
+
+/// The same with other limits than the defaults.
+async fn beside_a_control_session_with(
+    row: &str,
+    change: impl FnOnce(&mut Config),
+    test: impl AsyncFnOnce(&Stage),
+) {
+    let server = TestServer::start_with(change).await;
     server.import_reference().await;
     server
         .create_session("subject", "actors/reference")

@@ -80,6 +80,7 @@ const LIBRARIES: &[(&str, &[&str])] = &[
 /// A library, and the only module of the analysis that may name it.
 const ANALYSIS_LIBRARIES: &[(&str, &str)] = &[
     ("gltf::", "format"),
+    ("serde::", "format"),
     ("serde_json::", "format"),
     ("zip::", "format"),
 ];

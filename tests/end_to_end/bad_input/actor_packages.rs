@@ -1,11 +1,12 @@
 //! Rows C6, D1 to D7 and D12: ZIP packages that are broken in one place.
 
 use frontalis_proto::v1::ImportActorStart;
-use harness::{PackageFiles, TestServer, assert_refused, toy_files, toy_json, zip};
+use frontalis_server::config::Config;
+use harness::{PackageFiles, assert_refused, toy_files, toy_json, zip};
 use serde_json::{Value, json};
 use tonic::{Code, Status};
 
-use super::{Stage, beside_a_control_session};
+use super::{Stage, beside_a_control_session, beside_a_control_session_with};
 
 const NEUTRAL: &str = "neutral.obj";
 const SHAPE: &str = "shapes/jaw.obj";
@@ -209,19 +210,25 @@ async fn d6_every_usual_way_to_write_an_obj_is_read() {
 
 #[tokio::test(flavor = "multi_thread", worker_threads = 2)]
 async fn d7_a_package_above_the_limit_is_refused_while_it_streams() {
-    let server = TestServer::start_with(|config| config.limits.package_mib = 1).await;
-    let refused = server.import("big", &vec![0; 3 << 20]).await.unwrap_err();
-    assert_refused(&refused, Code::ResourceExhausted, "BASIS_SIZE");
-    // A little archive that becomes large is stopped as well.
-    let mut files = toy_files();
-    append(
-        &mut files,
-        NEUTRAL,
-        &"# padding that compresses very well\n".repeat(2_200_000),
-    );
-    let refused = server.import("bomb", &zip(&files)).await.unwrap_err();
-    assert_refused(&refused, Code::ResourceExhausted, "BASIS_SIZE");
-    server.stop().await;
+    let little = |config: &mut Config| config.limits.package_mib = 1;
+    beside_a_control_session_with("D7", little, async |stage| {
+        let refused = stage
+            .server
+            .import("big", &vec![0; 3 << 20])
+            .await
+            .unwrap_err();
+        assert_refused(&refused, Code::ResourceExhausted, "BASIS_SIZE");
+        // A little archive that becomes large is stopped as well.
+        let mut files = toy_files();
+        append(
+            &mut files,
+            NEUTRAL,
+            &"# padding that compresses very well\n".repeat(2_200_000),
+        );
+        let refused = stage.server.import("bomb", &zip(&files)).await.unwrap_err();
+        assert_refused(&refused, Code::ResourceExhausted, "BASIS_SIZE");
+    })
+    .await;
 }
 
 #[tokio::test(flavor = "multi_thread", worker_threads = 2)]
