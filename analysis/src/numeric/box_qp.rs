@@ -384,7 +384,7 @@ mod tests {
 
     use super::*;
 
-    /// Q = AᵀA + I/100 with random A, and a c that leaves about half of the unknowns at bounds.
+    /// `Q = AᵀA + I/100` with random A, and a c that leaves about half of the unknowns at bounds.
     fn random(m: usize, rng: &mut Pcg64) -> (BoxQp, Vec<f64>) {
         let a = nalgebra::DMatrix::from_fn(m, m, |_, _| rng.random_range(-1.0..1.0));
         let q = a.tr_mul(&a) + nalgebra::DMatrix::identity(m, m) * 0.01;
