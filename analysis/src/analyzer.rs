@@ -1,5 +1,7 @@
 //! The state of one session: marker frame in, curve sample out.
 
+pub use crate::marker_analysis::settings::{MarkerSettings, RegionMode};
+
 use std::sync::Arc;
 
 use crate::{
@@ -18,43 +20,6 @@ const MARKERS_IN_A_NEUTRAL_FRAME: usize = 4;
 
 /// Frames kept beyond the neutral frames wanted, while too few of them show a face: then the alignment has failed.
 const UNUSABLE_FRAMES_KEPT: usize = 512;
-
-/// How the regions of the face share one frame's problem.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum RegionMode {
-    /// All markers, all muscles and the head's pose in one problem.
-    #[default]
-    Joint,
-    /// Upper and lower region apart, as in the paper (Choe & Ko 2001, section 4.1.2).
-    Split,
-}
-
-/// What a session may choose about the analysis of its markers.
-#[derive(Clone, Debug, PartialEq)]
-pub struct MarkerSettings {
-    /// Frames registered rigidly and averaged for the alignment, 1..=256; the paper uses 1.
-    pub neutral_frames: usize,
-    /// Upper bound 2 instead of 1 for every contraction.
-    pub allow_exaggeration: bool,
-    /// One problem or two.
-    pub region_mode: RegionMode,
-    /// Solve for head motion in every frame.
-    pub stabilize_head: bool,
-    /// Align only after [`MarkerAnalyzer::recenter`], not on the first frames.
-    pub align_on_request: bool,
-}
-
-impl Default for MarkerSettings {
-    fn default() -> Self {
-        Self {
-            neutral_frames: 15,
-            allow_exaggeration: false,
-            region_mode: RegionMode::Joint,
-            stabilize_head: true,
-            align_on_request: false,
-        }
-    }
-}
 
 /// What became of a frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

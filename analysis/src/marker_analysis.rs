@@ -6,3 +6,5 @@ mod evidence;
 mod head_motion;
 mod marker_model;
 pub mod neutral;
+pub mod settings;
+mod still_problem;

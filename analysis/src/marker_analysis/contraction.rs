@@ -4,21 +4,19 @@
 //! bounds, a box QP with `Q = DᵀD` and `c = Dᵀd`.
 //! Occluded markers leave the sums; a region that shows too little is held, a muscle whose markers are hidden decays.
 
-use std::ops::Range;
-
 use nalgebra::{Matrix3, Vector3};
 
 use super::{
     alignment::Alignment,
-    evidence::{Evidence, Part, gram},
-    head_motion::{JointProblem, RIDGE, Stabilizer},
+    evidence::{Evidence, Part},
+    head_motion::{JointProblem, Stabilizer},
     marker_model::MarkerModel,
+    settings::{MarkerSettings, RegionMode},
+    still_problem::{StillProblem, fix},
 };
 use crate::{
-    analyzer::{MarkerSettings, RegionMode},
     curve::HeldReason,
     face::{actor::Actor, region::FaceRegion},
-    numeric::box_qp::BoxQp,
     space::{HeadPose, PerformancePoint},
 };
 
@@ -27,10 +25,6 @@ const UNOBSERVED_DECAY_SECS: f64 = 0.2;
 
 /// After a longer time without a solved frame the head's pose is fitted anew.
 const POSE_LOST_SECS: f64 = 0.3;
-
-/// Upper bound of a contraction, and with exaggeration.
-const FULL: f64 = 1.0;
-const EXAGGERATED: f64 = 2.0;
 
 /// What one region showed in the frame that was solved last.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -70,14 +64,12 @@ pub struct ContractionSolver {
 
     evidence: Option<Evidence>,
     joint: JointProblem,
-    whole: BoxQp,
-    apart: [BoxQp; 2],
+    still: StillProblem,
 
     visible: Vec<bool>,
     aligned: Vec<Vector3<f64>>,
     stabilized: Vec<Vector3<f64>>,
     reproduced: Vec<f64>,
-    linear: Vec<f64>,
 }
 
 impl ContractionSolver {
@@ -91,17 +83,12 @@ impl ContractionSolver {
         let model = MarkerModel::new(actor, alignment);
         let (n, m) = (model.n_markers(), model.n_muscles());
         let similarity = &alignment.model_from_performance;
-        let upper_bound = if settings.allow_exaggeration {
-            EXAGGERATED
-        } else {
-            FULL
-        };
         Self {
             linear_part: similarity.rotation.to_rotation_matrix().into_inner() * similarity.scale,
             translation_cm: similarity.translation_cm,
             region_mode: settings.region_mode,
             stabilize_head: settings.stabilize_head,
-            upper_bound,
+            upper_bound: settings.upper_bound(),
             rate_hz,
             decay: decay(rate_hz),
             x: vec![0.0; m],
@@ -112,13 +99,11 @@ impl ContractionSolver {
             kkt_residual: 0.0,
             evidence: None,
             joint: JointProblem::new(m),
-            whole: BoxQp::new(m),
-            apart: [0, 1].map(|it: usize| BoxQp::new(model.own_muscles[it].len())),
+            still: StillProblem::new(&model, settings.region_mode),
             visible: vec![false; n],
             aligned: vec![Vector3::zeros(); n],
             stabilized: vec![Vector3::zeros(); n],
             reproduced: vec![0.0; 3 * n],
-            linear: vec![0.0; m],
             model,
         }
     }
@@ -194,32 +179,11 @@ impl ContractionSolver {
             return;
         }
         if self.stabilize_head {
-            self.joint.set_evidence(evidence);
+            self.joint.set_evidence(evidence, self.upper_bound);
         }
-        let m = self.model.n_muscles();
-        self.free_all();
-        match self.region_mode {
-            RegionMode::Joint => fill_block(&mut self.whole, &evidence.gram, m, 0..m),
-            RegionMode::Split => {
-                for (index, qp) in self.apart.iter_mut().enumerate() {
-                    let gram = gram(&self.model, &evidence.own_used[index]);
-                    fill_block(qp, &gram, m, self.model.own_muscles[index].clone());
-                }
-            }
-        }
-    }
-
-    /// Gives every muscle its box; those that this frame fixes are fixed before each solve.
-    fn free_all(&mut self) {
-        let upper = self.upper_bound;
-        for i in 0..self.model.n_muscles() {
-            self.joint.qp.set_bounds(i, 0.0, upper);
-            self.whole.set_bounds(i, 0.0, upper);
-        }
-        for qp in &mut self.apart {
-            for i in 0..qp.len() {
-                qp.set_bounds(i, 0.0, upper);
-            }
+        if !self.stabilize_head || self.region_mode == RegionMode::Split {
+            self.still
+                .set_evidence(&self.model, evidence, self.upper_bound);
         }
     }
 
@@ -310,53 +274,22 @@ impl ContractionSolver {
         }
     }
 
-    /// The box QP over the stabilized markers, without a pose: all muscles at once, or each region apart.
+    /// The problem over the stabilized markers, without a pose.
     fn solve_still(&mut self, evidence: &Evidence) {
-        match self.region_mode {
-            RegionMode::Joint => {
-                let m = self.model.n_muscles();
-                correlate(
-                    &self.model,
-                    &evidence.used,
-                    &self.stabilized,
-                    0..m,
-                    &mut self.linear,
-                );
-                fix(&mut self.whole, &evidence.parts, &self.x);
-                match self.whole.solve(&self.linear, &mut self.x) {
-                    Ok(report) => self.kkt_residual = report.kkt_residual,
-                    Err(_) => self.hold_all(HeldReason::SolverBudget),
-                }
-            }
-            RegionMode::Split => {
-                self.kkt_residual = 0.0;
-                for index in 0..2 {
-                    self.solve_region(index, evidence);
-                }
-            }
-        }
-    }
-
-    fn solve_region(&mut self, index: usize, evidence: &Evidence) {
-        if self.regions[index].held.is_some() {
-            return;
-        }
-        let muscles = self.model.own_muscles[index].clone();
-        let linear = &mut self.linear[..muscles.len()];
-        correlate(
+        let regions = &mut self.regions;
+        self.kkt_residual = self.still.solve(
             &self.model,
-            &evidence.own_used[index],
+            evidence,
             &self.stabilized,
-            muscles.clone(),
-            linear,
+            &mut self.x,
+            |failed| {
+                for (index, region) in regions.iter_mut().enumerate() {
+                    if failed.is_none_or(|it| it == index) {
+                        region.held.get_or_insert(HeldReason::SolverBudget);
+                    }
+                }
+            },
         );
-        let qp = &mut self.apart[index];
-        let x = &mut self.x[muscles.clone()];
-        fix(qp, &evidence.parts[muscles], x);
-        match qp.solve(linear, x) {
-            Ok(report) => self.kkt_residual = self.kkt_residual.max(report.kkt_residual),
-            Err(_) => self.regions[index].held = Some(HeldReason::SolverBudget),
-        }
     }
 
     /// p = p₀ + D x at every marker.
@@ -443,44 +376,4 @@ impl ContractionSolver {
 /// What is left of an unobserved contraction after one frame.
 fn decay(rate_hz: f64) -> f64 {
     (-1.0 / (UNOBSERVED_DECAY_SECS * rate_hz)).exp()
-}
-
-/// `c = Dᵀd` over some markers for a range of muscles.
-fn correlate(
-    model: &MarkerModel,
-    used: &[usize],
-    stabilized: &[Vector3<f64>],
-    muscles: Range<usize>,
-    linear: &mut [f64],
-) {
-    linear.fill(0.0);
-    for &j in used {
-        let displacement = stabilized[j] - model.rest[j];
-        let rows = [0, 1, 2].map(|axis| &model.row(j, axis)[muscles.clone()]);
-        let columns = rows[0].iter().zip(rows[1]).zip(rows[2]);
-        for (c, ((x, y), z)) in linear.iter_mut().zip(columns) {
-            *c += x * displacement.x + y * displacement.y + z * displacement.z;
-        }
-    }
-}
-
-/// Fixes the muscles that are not solved for where they stand.
-fn fix(qp: &mut BoxQp, parts: &[Part], x: &[f64]) {
-    for (i, (part, &x)) in parts.iter().zip(x).enumerate() {
-        if *part != Part::Solved {
-            qp.set_bounds(i, x, x);
-        }
-    }
-}
-
-/// Gives a box QP the block of `gram` (columns m apart) that belongs to its muscles.
-fn fill_block(qp: &mut BoxQp, gram: &[f64], m: usize, muscles: Range<usize>) {
-    let (size, stride) = (muscles.len(), qp.stride());
-    qp.set_hessian(|q| {
-        for (i, muscle) in muscles.clone().enumerate() {
-            let column = &gram[muscle * m..(muscle + 1) * m];
-            q[i * stride..i * stride + size].copy_from_slice(&column[muscles.clone()]);
-            q[i * stride + i] += RIDGE;
-        }
-    });
 }

@@ -4,8 +4,8 @@
 
 use nalgebra::{Matrix3, Vector3};
 
-use super::marker_model::MarkerModel;
-use crate::{analyzer::RegionMode, curve::HeldReason, face::region::FaceRegion};
+use super::{marker_model::MarkerModel, settings::RegionMode};
+use crate::{curve::HeldReason, face::region::FaceRegion};
 
 /// A region with a smaller share of its own markers is held (D-27).
 const LEAST_SHARE: f64 = 0.6;

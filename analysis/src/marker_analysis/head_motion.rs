@@ -122,9 +122,13 @@ impl JointProblem {
         }
     }
 
-    /// Takes over the sums that do not depend on the motion: the muscles' block and the translation's.
-    pub fn set_evidence(&mut self, evidence: &Evidence) {
+    /// Takes over the sums that do not depend on the motion: the muscles' block and the translation's. Every muscle gets
+    /// its box.
+    pub fn set_evidence(&mut self, evidence: &Evidence, upper: f64) {
         let m = evidence.parts.len();
+        for i in 0..m {
+            self.qp.set_bounds(i, 0.0, upper);
+        }
         let (size, stride) = (m + MOTION, self.qp.stride());
         let n = evidence.used.len() as f64;
         self.qp.set_hessian(|q| {
