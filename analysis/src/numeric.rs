@@ -1,5 +1,6 @@
 //! Numerical methods that know no faces.
 
 pub mod box_qp;
+pub(crate) mod dot;
 pub mod factor;
 pub mod similarity_fit;

@@ -13,7 +13,7 @@ use super::{
     marker_model::MarkerModel,
     settings::RegionMode,
 };
-use crate::numeric::box_qp::{BoxQp, BoxQpError};
+use crate::numeric::{box_qp::BoxQp, dot::dot};
 
 /// Muscles that are solved together from the markers that observe them.
 #[derive(Clone, Debug)]
@@ -29,6 +29,8 @@ struct Block {
 pub(super) struct StillProblem {
     blocks: Vec<Block>,
     linear: Vec<f64>,
+    /// d by rows: 0 where a marker is not used.
+    displacements: Vec<f64>,
     /// Where x started: a block that fails stands still.
     before: Vec<f64>,
 }
@@ -49,6 +51,7 @@ impl StillProblem {
         Self {
             blocks,
             linear: vec![0.0; model.n_muscles()],
+            displacements: vec![0.0; 3 * model.n_markers()],
             before: vec![0.0; model.n_muscles()],
         }
     }
@@ -67,6 +70,7 @@ impl StillProblem {
                 block.qp.set_bounds(i, 0.0, upper);
             }
         }
+        self.displacements.fill(0.0);
     }
 
     /// Solves for `x`, warm, from the markers at `positions`.
@@ -82,18 +86,25 @@ impl StillProblem {
     ) -> f64 {
         let mut kkt_residual = 0.0_f64;
         self.before.copy_from_slice(x);
+        for &j in &evidence.used {
+            let displacement = positions[j] - model.rest[j];
+            self.displacements[3 * j..3 * j + 3].copy_from_slice(displacement.as_slice());
+        }
         for block in &mut self.blocks {
             let held = |index: usize| evidence.regions[index].held.is_some();
             if block.region.is_some_and(held) {
                 continue;
             }
-            match block.solve(model, evidence, positions, &mut self.linear, x) {
-                Ok(residual) => kkt_residual = kkt_residual.max(residual),
-                Err(_) => {
-                    let muscles = block.muscles.clone();
-                    x[muscles.clone()].copy_from_slice(&self.before[muscles]);
-                    failed(block.region);
-                }
+            let muscles = block.muscles.clone();
+            let linear = &mut self.linear[muscles.clone()];
+            correlate(model, block, &self.displacements, linear);
+            let x = &mut x[muscles.clone()];
+            fix(&mut block.qp, &evidence.parts[muscles.clone()], x);
+            if let Ok(report) = block.qp.solve(linear, x) {
+                kkt_residual = kkt_residual.max(report.kkt_residual);
+            } else {
+                x.copy_from_slice(&self.before[muscles]);
+                failed(block.region);
             }
         }
         kkt_residual
@@ -113,42 +124,21 @@ impl Block {
             }
         });
     }
-
-    fn solve(
-        &mut self,
-        model: &MarkerModel,
-        evidence: &Evidence,
-        positions: &[Vector3<f64>],
-        linear: &mut [f64],
-        x: &mut [f64],
-    ) -> Result<f64, BoxQpError> {
-        let linear = &mut linear[self.muscles.clone()];
-        let x = &mut x[self.muscles.clone()];
-        let used = self
-            .region
-            .map_or(&evidence.used, |index| &evidence.own_used[index]);
-        correlate(model, used, positions, self.muscles.clone(), linear);
-        fix(&mut self.qp, &evidence.parts[self.muscles.clone()], x);
-        Ok(self.qp.solve(linear, x)?.kkt_residual)
-    }
 }
 
-/// `c = Dᵀd` over some markers for a range of muscles.
-fn correlate(
-    model: &MarkerModel,
-    used: &[usize],
-    positions: &[Vector3<f64>],
-    muscles: Range<usize>,
-    linear: &mut [f64],
-) {
-    linear.fill(0.0);
-    for &j in used {
-        let displacement = positions[j] - model.rest[j];
-        let rows = [0, 1, 2].map(|axis| &model.row(j, axis)[muscles.clone()]);
-        let columns = rows[0].iter().zip(rows[1]).zip(rows[2]);
-        for (c, ((x, y), z)) in linear.iter_mut().zip(columns) {
-            *c += x * displacement.x + y * displacement.y + z * displacement.z;
-        }
+/// `c = Dᵀd` over the block's markers for the block's muscles.
+fn correlate(model: &MarkerModel, block: &Block, displacements: &[f64], linear: &mut [f64]) {
+    let own = block.region.map_or(0..model.n_markers(), |index| {
+        model.own_markers[index].clone()
+    });
+    for (c, muscle) in linear.iter_mut().zip(block.muscles.clone()) {
+        let support = &model.support[muscle];
+        let rows = support.start.max(3 * own.start)..support.end.min(3 * own.end);
+        *c = if rows.is_empty() {
+            0.0
+        } else {
+            dot(&model.column(muscle)[rows.clone()], &displacements[rows])
+        };
     }
 }
 
