@@ -30,6 +30,7 @@ clean-demo: ## Forget what the demo stored
 
 .PHONY: test
 test: python runner ## Every test there is; ends with the runner's own count
+	cargo build --workspace --bins --quiet
 	cargo test --workspace --doc --quiet
 	@if ! cargo nextest --version >/dev/null 2>&1; then \
 	  cargo test --workspace --lib --bins --tests --no-fail-fast; \
