@@ -11,6 +11,7 @@ mod quota;
 mod sample;
 mod subscription;
 mod timecode;
+mod times;
 mod window;
 
 pub use budget::BufferBudget;
@@ -21,4 +22,6 @@ pub use subscription::{
     Delivered, Delivery, MAX_CREDITS, StartAt, SubscribeError, SubscribeSpec, Subscription, Update,
 };
 pub use timecode::Timecode;
+pub use times::Latency;
+pub(crate) use times::Times;
 pub use window::{LostRange, RangeError};

@@ -30,5 +30,5 @@ pub use settings::{
     RestoredAlignment, SessionEvent, SessionLimits, SessionSettings, SessionSpec, SessionUpdate,
     StreamShape,
 };
-pub use status::{AlignmentReport, ControlRange, Latency, SessionStatus, StageLatency};
+pub use status::{AlignmentReport, ControlRange, SessionStatus, StageLatency};
 pub use worker::alignment_problem;

@@ -18,6 +18,7 @@ use super::{
     quota::{SubscriberQuota, SubscriberStatus, Tally},
     sample::{Gap, Outgoing, PublishedSample, SessionState, StreamState},
     subscription::{SubscribeError, SubscribeSpec, Subscription},
+    times::{Latency, Times},
     window::{Cursor, Entry, RangeError, Window, WindowLimits},
 };
 use crate::clock::{ServerClock, nanos};
@@ -94,6 +95,8 @@ pub(super) struct Shared {
     transitions: VecDeque<SessionState>,
     n_transitions: u64,
     pub(super) closing: Option<Closing>,
+    /// From published to handed to a subscriber that keeps up.
+    pub(super) sent: Times,
 }
 
 #[derive(Debug, Default)]
@@ -120,6 +123,7 @@ impl CurveHub {
             transitions: VecDeque::new(),
             n_transitions: 0,
             closing: None,
+            sent: Times::default(),
         };
         Self {
             run,
@@ -245,6 +249,11 @@ impl CurveHub {
         Ok(page)
     }
 
+    /// How long samples waited for the subscribers that keep up.
+    pub fn sent_latency(&self) -> Latency {
+        self.shared().sent.latency()
+    }
+
     /// What every subscriber was sent, in the order they came.
     pub fn subscribers(&self) -> Vec<SubscriberStatus> {
         let newest_sequence = self.newest_sequence();
@@ -298,6 +307,10 @@ impl CurveHub {
 
     pub(super) fn quota(&self) -> &SubscriberQuota {
         &self.limits.subscriber_quota
+    }
+
+    pub(super) fn now_nanos(&self) -> i64 {
+        self.clock.now_nanos()
     }
 
     pub(super) fn shared(&self) -> MutexGuard<'_, Shared> {

@@ -243,10 +243,17 @@ impl Subscription {
 
     fn take_ready(&mut self, now: Instant) -> Option<Delivered> {
         let hub = Arc::clone(&self.hub);
-        let shared = hub.shared();
+        let mut shared = hub.shared();
         let mut update = Update::default();
         if let Err(lost) = self.take_samples(&shared, now, &mut update) {
             return Some(Delivered::Lagged(lost));
+        }
+        // One that is still catching up would tell how far it was behind, not how long a sample takes.
+        if let Some(newest) = update.samples.last()
+            && newest.sequence == shared.window.newest_sequence()
+        {
+            let nanos = hub.now_nanos() - newest.solved_time_nanos;
+            shared.sent.add(nanos);
         }
         if let Some((state, n_heard)) = shared.transition_after(self.n_states_heard) {
             self.n_states_heard = n_heard;

@@ -12,7 +12,7 @@ use super::{
     publication::{Grant, Granted, Publication},
     settings::{SessionSettings, SessionUpdate, StreamShape},
     shared::Shared,
-    status::SessionStatus,
+    status::{SessionStatus, StageLatency},
 };
 use crate::{
     hub::CurveHub,
@@ -92,6 +92,10 @@ impl SessionHandle {
             ..SessionStatus::default()
         };
         shared.figures().fill(&mut status);
+        status.latencies.push(StageLatency {
+            stage: "sent",
+            latency: shared.hub.sent_latency(),
+        });
         let now_nanos = shared.clock.now_nanos();
         shared.intake().fill(&mut status, now_nanos);
         status

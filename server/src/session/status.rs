@@ -1,6 +1,6 @@
 //! The state of a session in figures, for people and programs that watch over it.
 
-use crate::hub::{SessionState, SubscriberStatus};
+use crate::hub::{Latency, SessionState, SubscriberStatus};
 
 /// A session's figures at one moment.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -65,21 +65,11 @@ pub struct AlignmentReport {
 /// One stage's times.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StageLatency {
-    /// `queued`, `solved`, `published`, or `total` from frame received to sample published.
+    /// `queued`, `solved`, `published`, `sent` from published to handed to a subscriber that keeps up, or `total` from frame
+    /// received to sample published.
     pub stage: &'static str,
     /// Over the last thousand samples.
     pub latency: Latency,
-}
-
-/// A distribution in three figures.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Latency {
-    /// Median, microseconds.
-    pub p50_micros: f64,
-    /// 99th percentile, microseconds.
-    pub p99_micros: f64,
-    /// Largest, microseconds.
-    pub max_micros: f64,
 }
 
 /// What one control went through.
