@@ -91,3 +91,7 @@ bench: ## CPU time of the solve, the stage and the alignment, one thread
 .PHONY: bench-load
 bench-load: ## 64 sessions at 120 Hz with a subscriber each, 30 s: losses and latency
 	cargo run --release --package frontalis-tests --bin load
+
+.PHONY: bench-late
+bench-late: ## A renderer that sleeps 20 s at 120 Hz: what it gets when it wakes
+	cargo run --release --package frontalis-tests --bin late

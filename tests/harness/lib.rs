@@ -20,6 +20,7 @@ mod publisher;
 mod real_time;
 mod server;
 mod shared_data;
+mod stall;
 mod subscriber;
 
 pub use control_session::{ControlReport, ControlSession};
@@ -32,4 +33,5 @@ pub use programs::program;
 pub use publisher::{PublishReport, Publisher};
 pub use server::TestServer;
 pub use shared_data::data_dir;
+pub use stall::{StallProfile, StallReport};
 pub use subscriber::{Heard, Subscriber, every_frame, latest};

@@ -34,7 +34,7 @@ pub(super) struct ListQuery {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 pub(super) struct CurvesQuery {
-    /// The run that `after` counts in; absent: the current one.
+    /// The run that `after` counts in; absent or 0: the current one.
     run: Option<u64>,
     /// The last sequence that the client has; absent: from the oldest that is kept.
     after: Option<u64>,
@@ -94,7 +94,7 @@ pub(super) async fn curves(
     let handle = doors.sessions.handle(&id)?;
     let page = handle
         .hub()
-        .page(query.run, query.after, limit)
+        .page(query.run.filter(|run| *run != 0), query.after, limit)
         .map_err(Status::from)?;
     Ok(Json(wire::json::curves(&id, &handle.actor(), &page)))
 }
