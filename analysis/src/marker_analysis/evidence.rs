@@ -7,10 +7,10 @@ use nalgebra::{Matrix3, Vector3};
 use super::{marker_model::MarkerModel, settings::RegionMode};
 use crate::{curve::HeldReason, face::region::FaceRegion};
 
-/// A region with a smaller share of its own markers is held (D-27).
+/// A region with a smaller share of its own markers is held (CONTRACTS D-27).
 const LEAST_SHARE: f64 = 0.6;
 
-/// A region with fewer of its own markers is held (D-27).
+/// A region with fewer of its own markers is held (CONTRACTS D-27).
 const LEAST_MARKERS: usize = 3;
 
 /// A muscle with a smaller share of its displacement energy at visible markers cannot be told.

@@ -75,7 +75,7 @@ impl Shared {
         self.room.notify_waiters();
     }
 
-    /// The first response of a connection says where the server stands (D-8).
+    /// The first response of a connection says where the server stands (CONTRACTS D-8).
     pub fn begin_connection(&self, first: &PublishResponse) -> PublishStarted {
         let started = first.started.unwrap_or_default();
         let mut state = self.lock();

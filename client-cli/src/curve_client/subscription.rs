@@ -115,7 +115,7 @@ impl Subscription {
         matches!(self.settings.wanted, Wanted::Latest { .. })
     }
 
-    /// The sample before was shown: the server may send another (D-14).
+    /// The sample before was shown: the server may send another (CONTRACTS D-14).
     fn return_credit(&mut self) {
         if let Phase::Open(stream) = &self.phase
             && std::mem::take(&mut self.owes_credit)

@@ -1,7 +1,7 @@
 //! Where an error becomes a gRPC status.
 //!
 //! Every status carries `google.rpc.ErrorInfo { reason, domain: "frontalis" }` in `grpc-status-details-bin`, and
-//! `google.rpc.RetryInfo` where waiting helps (the bad-input table, "Notation").
+//! `google.rpc.RetryInfo` where waiting helps (BAD_INPUT, "Status mapping").
 
 use std::time::Duration;
 

@@ -100,7 +100,7 @@ fn title(reason: &str) -> String {
     reason.to_lowercase().replace('_', " ")
 }
 
-/// The mapping of BAD_INPUT, "Notation".
+/// The mapping of BAD_INPUT, "Status mapping".
 fn http_status(code: Code) -> StatusCode {
     match code {
         Code::Ok => StatusCode::OK,
