@@ -173,6 +173,7 @@ impl MarkerAnalyzer {
 
     /// Changes settings or moves to another revision of the actor, between two frames.
     /// The alignment is kept, its bindings carried over to the new mesh.
+    /// An analyzer that waits for a request to align, and no longer should, starts to collect neutral frames.
     pub fn update(&mut self, actor: Arc<Actor>, settings: MarkerSettings) {
         if let Stage::Solving(solving) = &mut self.stage {
             let alignment = solving.alignment.carried_over(&self.actor, &actor);
@@ -180,6 +181,9 @@ impl MarkerAnalyzer {
             next.solver.continue_from(&solving.solver);
             next.held_frames = solving.held_frames;
             **solving = next;
+        }
+        if matches!(self.stage, Stage::Waiting) && !settings.align_on_request {
+            self.stage = Stage::Collecting(Vec::new());
         }
         self.actor = actor;
         self.settings = settings;

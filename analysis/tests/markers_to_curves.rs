@@ -333,3 +333,22 @@ fn the_same_frames_give_the_same_bits() {
     let [first, second] = [(); 2].map(|()| solve(&performance, MarkerSettings::default()));
     assert_eq!(first, second);
 }
+
+#[test]
+fn an_analyzer_that_need_not_wait_any_more_aligns_on_the_next_frames() {
+    let performance = Performance::of(&actor(), Stage::STILL);
+    let waiting = MarkerSettings {
+        align_on_request: true,
+        ..MarkerSettings::default()
+    };
+    let mut analyzer = analyzer(&actor(), waiting);
+    let mut samples = Vec::new();
+    let first = analyzer.push(performance.frames[0].clone(), &mut samples);
+    assert_eq!(first, Ok(Progress::Waiting));
+    analyzer.update(actor(), MarkerSettings::default());
+    for frame in &performance.frames[1..16] {
+        analyzer.push(frame.clone(), &mut samples).unwrap();
+    }
+    assert!(analyzer.alignment().is_some());
+    assert_eq!(samples.len(), 15);
+}
