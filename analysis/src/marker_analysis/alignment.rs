@@ -12,7 +12,7 @@
 use crate::{
     face::{actor::Actor, marker::VirtualMarker, region::FaceRegion},
     marker_analysis::neutral::Neutral,
-    numeric::similarity_fit::{Fit, Scale, fit},
+    numeric::similarity_fit::{Scale, fit},
     space::{LengthUnit, ModelPoint, PerformancePoint, Similarity},
 };
 
@@ -101,50 +101,24 @@ impl Alignment {
         neutral: &Neutral,
         unit: LengthUnit,
     ) -> Result<Self, AlignmentError> {
-        let noise_cm = neutral.noise_cm;
-        let neutral = neutral.positions.as_slice();
-        check_complete(actor, neutral)?;
-        check_extent(neutral, unit)?;
-        let mut bindings: Vec<Option<VirtualMarker>> = actor
-            .virtual_markers()
-            .iter()
-            .zip(neutral)
-            .map(|(hand_marked, seen)| seen.map(|_| *hand_marked))
-            .collect();
-        let reachable: Vec<Vec<usize>> = bindings
-            .iter()
-            .map(|it| {
-                it.map_or(Vec::new(), |it| {
-                    actor.mesh().neighborhood(it.triangle, PROJECTION_RADIUS_CM)
-                })
-            })
-            .collect();
-        let mut similarity = fit_similarity(actor, neutral, &bindings)?;
-        let trust = trust_in_projection(
-            rms_residual(actor, neutral, &similarity, &bindings),
-            neutral.iter().flatten().count(),
-            noise_cm,
-        );
+        check_complete(actor, &neutral.positions)?;
+        check_extent(&neutral.positions, unit)?;
+        let mut search = Search::start(actor, &neutral.positions);
+        let mut similarity = search.fit()?;
+        let trust = search.trust_in_projection(&similarity, neutral.noise_cm);
         let mut iterations = 1;
         while iterations < ROUNDS {
-            let moved_cm = project(
-                actor,
-                neutral,
-                &similarity,
-                trust,
-                &reachable,
-                &mut bindings,
-            );
-            similarity = fit_similarity(actor, neutral, &bindings)?;
+            let moved_cm = search.project(&similarity, trust);
+            similarity = search.fit()?;
             iterations += 1;
             if moved_cm < STILL_CM {
                 break;
             }
         }
         Ok(Self {
-            rms_residual_cm: rms_residual(actor, neutral, &similarity, &bindings),
+            rms_residual_cm: search.rms_residual(&similarity),
             model_from_performance: similarity,
-            bindings,
+            bindings: search.bindings,
             iterations,
         })
     }
@@ -227,86 +201,104 @@ fn check_extent(
     })
 }
 
-/// The closed-form similarity between the real markers and their present virtual markers.
-fn fit_similarity(
-    actor: &Actor,
-    neutral: &[Option<PerformancePoint>],
-    bindings: &[Option<VirtualMarker>],
-) -> Result<Similarity, AlignmentError> {
-    let pairs = neutral.iter().zip(bindings).filter_map(|(real, binding)| {
-        Some((1.0, (*real)?.0, (*binding)?.position(actor.mesh()).0))
-    });
-    let Fit {
-        scale,
-        rotation,
-        translation,
-        handedness,
-    } = fit(pairs, Scale::Free).ok_or(AlignmentError::Degenerate)?;
-    if handedness < MIRRORED {
-        return Err(AlignmentError::Mirrored);
-    }
-    Ok(Similarity {
-        scale,
-        rotation,
-        translation_cm: translation,
-    })
+/// Real markers and where their virtual markers presently are.
+struct Search<'a> {
+    actor: &'a Actor,
+    neutral: &'a [Option<PerformancePoint>],
+    bindings: Vec<Option<VirtualMarker>>,
+    /// The triangles that each marker may slide over.
+    reachable: Vec<Vec<usize>>,
 }
 
-/// The share of the hand-marking's variance in that of hand-marking and noise together.
-///
-/// The residual of the first fit holds both, over 3n less the similarity's seven degrees of freedom.
-fn trust_in_projection(rms_residual_cm: f64, n_markers: usize, noise_cm: f64) -> f64 {
-    let n = n_markers as f64;
-    let freedom = (3.0 * n - SIMILARITY_FREEDOM).max(1.0);
-    let both = rms_residual_cm * rms_residual_cm * n / freedom;
-    let noise = noise_cm * noise_cm;
-    if both > noise {
-        (both - noise) / both
-    } else {
-        0.0
-    }
-}
-
-/// Moves every virtual marker to the foot of its real one on the surface, as far as `trust` goes; returns the largest
-/// move, centimeters.
-fn project(
-    actor: &Actor,
-    neutral: &[Option<PerformancePoint>],
-    similarity: &Similarity,
-    trust: f64,
-    reachable: &[Vec<usize>],
-    bindings: &mut [Option<VirtualMarker>],
-) -> f64 {
-    let mesh = actor.mesh();
-    let mut largest_cm = 0.0_f64;
-    let hand_marked = actor.virtual_markers().iter();
-    let markers = neutral.iter().zip(bindings).zip(hand_marked).zip(reachable);
-    for (((real, binding), hand_marked), triangles) in markers {
-        let (Some(real), Some(binding)) = (real, binding) else {
-            continue;
+impl<'a> Search<'a> {
+    /// Every marker that was seen starts where the artist put it.
+    fn start(actor: &'a Actor, neutral: &'a [Option<PerformancePoint>]) -> Self {
+        let hand_marked = actor.virtual_markers().iter().zip(neutral);
+        let bindings: Vec<_> = hand_marked
+            .map(|(hand_marked, seen)| seen.map(|_| *hand_marked))
+            .collect();
+        let around = |it: &Option<VirtualMarker>| {
+            it.map_or(Vec::new(), |it| {
+                actor.mesh().neighborhood(it.triangle, PROJECTION_RADIUS_CM)
+            })
         };
-        let start = hand_marked.position(mesh).0;
-        let target = start + trust * (similarity.to_model(*real).0 - start);
-        let among = triangles.iter().copied();
-        if let Some(foot) = mesh.closest_point_among(ModelPoint(target), among) {
-            let before = binding.position(mesh);
-            largest_cm = largest_cm.max((foot.position.0 - before.0).norm());
-            *binding = foot.place;
+        Self {
+            actor,
+            neutral,
+            reachable: bindings.iter().map(around).collect(),
+            bindings,
         }
     }
-    largest_cm
-}
 
-fn rms_residual(
-    actor: &Actor,
-    neutral: &[Option<PerformancePoint>],
-    similarity: &Similarity,
-    bindings: &[Option<VirtualMarker>],
-) -> f64 {
-    let squares = neutral.iter().zip(bindings).filter_map(|(real, binding)| {
-        let aligned = similarity.to_model((*real)?);
-        Some((aligned.0 - (*binding)?.position(actor.mesh()).0).norm_squared())
-    });
-    let (sum, count) = squares.fold((0.0, 0.0), |(sum, count), it| (sum + it, count + 1.0));
-    (sum / f64::max(count, 1.0)).sqrt()
+    /// Pairs of real and virtual marker.
+    fn pairs(&self) -> impl Iterator<Item = (PerformancePoint, ModelPoint)> + Clone {
+        let mesh = self.actor.mesh();
+        let markers = self.neutral.iter().zip(&self.bindings);
+        markers.filter_map(move |(real, binding)| Some(((*real)?, (*binding)?.position(mesh))))
+    }
+
+    /// The closed-form similarity between the real markers and their present virtual markers.
+    fn fit(&self) -> Result<Similarity, AlignmentError> {
+        let pairs = self
+            .pairs()
+            .map(|(real, virtual_marker)| (1.0, real.0, virtual_marker.0));
+        let found = fit(pairs, Scale::Free).ok_or(AlignmentError::Degenerate)?;
+        if found.handedness < MIRRORED {
+            return Err(AlignmentError::Mirrored);
+        }
+        Ok(Similarity {
+            scale: found.scale,
+            rotation: found.rotation,
+            translation_cm: found.translation,
+        })
+    }
+
+    /// Root mean square distance of the aligned markers from their virtual markers, centimeters.
+    fn rms_residual(&self, similarity: &Similarity) -> f64 {
+        let squares = self
+            .pairs()
+            .map(|(real, place)| (similarity.to_model(real).0 - place.0).norm_squared());
+        let (sum, count) = squares.fold((0.0, 0.0), |(sum, count), it| (sum + it, count + 1.0));
+        (sum / f64::max(count, 1.0)).sqrt()
+    }
+
+    /// The share of the hand-marking's variance in that of hand-marking and noise together.
+    ///
+    /// The residual of the first fit holds both, over 3n less the similarity's seven degrees of freedom.
+    fn trust_in_projection(&self, first: &Similarity, noise_cm: f64) -> f64 {
+        let n = self.pairs().count() as f64;
+        let freedom = (3.0 * n - SIMILARITY_FREEDOM).max(1.0);
+        let both = self.rms_residual(first).powi(2) * n / freedom;
+        let noise = noise_cm * noise_cm;
+        if both > noise {
+            (both - noise) / both
+        } else {
+            0.0
+        }
+    }
+
+    /// Moves every virtual marker to the foot of its real one on the surface, as far as `trust` goes; returns the
+    /// largest move, centimeters.
+    fn project(&mut self, similarity: &Similarity, trust: f64) -> f64 {
+        let mesh = self.actor.mesh();
+        let mut largest_cm = 0.0_f64;
+        let hand_marked = self.actor.virtual_markers().iter();
+        let markers = self.neutral.iter().zip(&mut self.bindings);
+        for (((real, binding), hand_marked), triangles) in
+            markers.zip(hand_marked).zip(&self.reachable)
+        {
+            let (Some(real), Some(binding)) = (real, binding) else {
+                continue;
+            };
+            let start = hand_marked.position(mesh).0;
+            let target = start + trust * (similarity.to_model(*real).0 - start);
+            let among = triangles.iter().copied();
+            if let Some(foot) = mesh.closest_point_among(ModelPoint(target), among) {
+                let before = binding.position(mesh);
+                largest_cm = largest_cm.max((foot.position.0 - before.0).norm());
+                *binding = foot.place;
+            }
+        }
+        largest_cm
+    }
 }

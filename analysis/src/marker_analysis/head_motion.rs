@@ -215,7 +215,14 @@ impl JointProblem {
             self.linear[m + axis] = -torque[axis];
             self.linear[m + 3 + axis] = -force[axis];
         }
+        self.set_rotation_blocks(&inertia);
+        center
+    }
+
+    /// Writes what the rotation shares with the muscles and with itself.
+    fn set_rotation_blocks(&mut self, inertia: &Matrix3<f64>) {
         let (stride, moments) = (self.qp.stride(), &self.moments);
+        let m = moments[0].len();
         self.qp.set_hessian(|q| {
             for axis in 0..3 {
                 let k = m + axis;
@@ -229,7 +236,6 @@ impl JointProblem {
                 q[k * stride + k] += RIDGE;
             }
         });
-        center
     }
 
     /// Adds one marker's Dᵀe to the right-hand side and its arm × d to the moments.
