@@ -92,18 +92,12 @@ async fn what_is_not_there_is_a_problem_document() {
 
 /// A server with a session that has solved its frames.
 async fn staged() -> TestServer {
-    let server = TestServer::start().await;
-    server.import_reference().await;
-    server
-        .create_session("stage", "actors/reference")
-        .await
-        .unwrap();
+    let server = TestServer::with_session("stage").await;
     let performance = TestPerformance::reference();
     let mut publisher = Publisher::open(&server, performance.start(SESSION, "camera-1"))
         .await
         .unwrap();
-    publisher.send(performance.frames(1..=FRAMES)).await;
-    publisher.accepted(FRAMES).await.unwrap();
+    publisher.publish(performance.frames(1..=FRAMES)).await;
     let mut subscriber = Subscriber::open(&server, every_frame(SESSION))
         .await
         .unwrap();

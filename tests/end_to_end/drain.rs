@@ -10,12 +10,7 @@ const FRAMES: u64 = 50;
 
 #[tokio::test(flavor = "multi_thread", worker_threads = 2)]
 async fn a_drain_closes_every_stream_with_its_reason_and_never_with_an_end() {
-    let server = TestServer::start().await;
-    server.import_reference().await;
-    server
-        .create_session("stage", "actors/reference")
-        .await
-        .unwrap();
+    let server = TestServer::with_session("stage").await;
     let performance = TestPerformance::reference();
     let mut publisher = Publisher::open(&server, performance.start(SESSION, "camera-1"))
         .await
@@ -24,8 +19,7 @@ async fn a_drain_closes_every_stream_with_its_reason_and_never_with_an_end() {
         .await
         .unwrap();
     let renderer = Subscriber::open(&server, latest(SESSION, 2)).await.unwrap();
-    publisher.send(performance.frames(1..=FRAMES)).await;
-    publisher.accepted(FRAMES).await.unwrap();
+    publisher.publish(performance.frames(1..=FRAMES)).await;
 
     let recording = tokio::spawn(until_cut(recorder));
     let rendering = tokio::spawn(until_cut(renderer));
@@ -45,12 +39,7 @@ async fn a_drain_closes_every_stream_with_its_reason_and_never_with_an_end() {
 
 #[tokio::test(flavor = "multi_thread", worker_threads = 2)]
 async fn an_end_is_the_last_word_of_a_session() {
-    let server = TestServer::start().await;
-    server.import_reference().await;
-    server
-        .create_session("stage", "actors/reference")
-        .await
-        .unwrap();
+    let server = TestServer::with_session("stage").await;
     let performance = TestPerformance::reference();
     let mut publisher = Publisher::open(&server, performance.start(SESSION, "camera-1"))
         .await
@@ -58,8 +47,7 @@ async fn an_end_is_the_last_word_of_a_session() {
     let mut recorder = Subscriber::open(&server, every_frame(SESSION))
         .await
         .unwrap();
-    publisher.send(performance.frames(1..=FRAMES)).await;
-    publisher.accepted(FRAMES).await.unwrap();
+    publisher.publish(performance.frames(1..=FRAMES)).await;
     drop(publisher.finish().await);
     server.end_session(SESSION).await;
     server.end_session(SESSION).await;

@@ -32,18 +32,12 @@ async fn a_renderer_that_stalls_gets_its_credits_of_stale_samples_then_the_newes
 
 #[tokio::test(flavor = "multi_thread", worker_threads = 2)]
 async fn a_late_renderer_sees_the_current_face_at_once() {
-    let server = TestServer::start().await;
-    server.import_reference().await;
-    server
-        .create_session("late", "actors/reference")
-        .await
-        .unwrap();
+    let server = TestServer::with_session("late").await;
     let performance = TestPerformance::reference();
     let mut publisher = Publisher::open(&server, performance.start(SESSION, "camera-1"))
         .await
         .unwrap();
-    publisher.send(performance.frames(1..=BEFORE)).await;
-    publisher.accepted(BEFORE).await.unwrap();
+    publisher.publish(performance.frames(1..=BEFORE)).await;
     let mut recorder = Subscriber::open(&server, every_frame(SESSION))
         .await
         .unwrap();

@@ -24,8 +24,7 @@ async fn a_publisher_goes_on_after_a_restart_without_a_new_alignment() {
     let mut publisher = Publisher::open(&server, performance.start(SESSION, "camera-1"))
         .await
         .unwrap();
-    publisher.send(performance.frames(1..=BEFORE)).await;
-    publisher.accepted(BEFORE).await.unwrap();
+    publisher.publish(performance.frames(1..=BEFORE)).await;
     let mut subscriber = Subscriber::open(&server, every_frame(SESSION))
         .await
         .unwrap();
@@ -118,8 +117,7 @@ async fn a_position_in_the_run_before_the_restart_is_answered_new_run() {
     let mut publisher = Publisher::open(&server, performance.start(SESSION, "camera-1"))
         .await
         .unwrap();
-    publisher.send(performance.frames(1..=BEFORE)).await;
-    publisher.accepted(BEFORE).await.unwrap();
+    publisher.publish(performance.frames(1..=BEFORE)).await;
     let run = publisher.started.run;
 
     let server = server.restart().await;
@@ -207,12 +205,7 @@ async fn frames_through(curves: &mut CurveClient, frame: u64) -> (Vec<u64>, usiz
 }
 
 async fn staged() -> TestServer {
-    let server = TestServer::start().await;
-    server.import_reference().await;
-    server
-        .create_session("stage", "actors/reference")
-        .await
-        .unwrap();
+    let server = TestServer::with_session("stage").await;
     server
 }
 

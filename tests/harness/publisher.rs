@@ -81,6 +81,13 @@ impl Publisher {
         .await;
     }
 
+    /// Sends frames in one message and waits until all of them have been taken.
+    pub async fn publish(&mut self, frames: Vec<MarkerFrame>) {
+        let last = frames.last().map_or(0, |it| it.number);
+        self.send(frames).await;
+        self.accepted(last).await.unwrap();
+    }
+
     /// Sends any message; a closed stream is found when its answers are read.
     pub async fn send_message(&mut self, message: PublishMarkersRequest) {
         drop(self.outgoing.send(message).await);

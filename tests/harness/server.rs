@@ -61,6 +61,14 @@ impl TestServer {
         self.folder
     }
 
+    /// Starts one with the reference face and a session of it.
+    pub async fn with_session(id: &str) -> Self {
+        let server = Self::start().await;
+        server.import_reference().await;
+        server.create_session(id, "actors/reference").await.unwrap();
+        server
+    }
+
     /// Drains the server and starts another on the same folder and the same port.
     pub async fn restart(self) -> Self {
         let (address, mut config) = (self.address(), self.config.clone());
