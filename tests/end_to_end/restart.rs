@@ -205,8 +205,7 @@ async fn frames_through(curves: &mut CurveClient, frame: u64) -> (Vec<u64>, usiz
 }
 
 async fn staged() -> TestServer {
-    let server = TestServer::with_session("stage").await;
-    server
+    TestServer::with_session("stage").await
 }
 
 async fn actor(server: &TestServer) -> frontalis_proto::v1::Actor {
