@@ -103,6 +103,13 @@ mod tests {
     #[test]
     fn figures_outside_their_range_are_usage_errors() {
         for line in [
+            "frontalis session create --actor anna --id=",
+            "frontalis session create --actor anna --id sessions/",
+            "frontalis actor import face.zip --id=",
+            "frontalis session create --actor anna --stale-after-millis 9",
+            "frontalis session create --actor anna --stale-after-millis 3600001",
+            "frontalis session update take-1 --publisher-timeout-secs 0",
+            "frontalis session update take-1 --publisher-timeout-secs 3601",
             "frontalis session create --actor anna --neutral-frames 0",
             "frontalis session create --actor anna --neutral-frames 257",
             "frontalis simulate --session s --rate 0",

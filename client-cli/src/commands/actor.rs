@@ -4,7 +4,7 @@ mod package;
 
 use std::{fs, path::PathBuf, process::ExitCode};
 
-use anyhow::Context as _;
+use anyhow::{Context as _, bail};
 use clap::{Args, Subcommand};
 use frontalis_analysis::synthesis::reference_face;
 use frontalis_client::{error::ClientError, proto};
@@ -12,7 +12,7 @@ use proto::actor_service_client::ActorServiceClient;
 use tonic::transport::Channel;
 
 pub use self::package::{PackageForm, fetch, import, read as read_package};
-use super::{Context, actor_name, short_id};
+use super::{Context, actor_name, names::new_actor_id, short_id};
 use crate::{
     json,
     terminal::{self, say, tables},
@@ -48,7 +48,7 @@ pub struct ImportArgs {
     /// The package, .zip or .glb
     package: PathBuf,
     /// Id of the actor: 1 to 63 of a-z, 0-9, - and _
-    #[arg(long)]
+    #[arg(long, value_parser = new_actor_id)]
     id: String,
     /// Name for people [default: the package's own]
     #[arg(long, value_name = "NAME")]
@@ -81,7 +81,7 @@ pub struct ExportArgs {
 pub struct DeleteArgs {
     /// The actor
     id: String,
-    /// Do not ask
+    /// Do not ask; needed without a terminal
     #[arg(long, short)]
     yes: bool,
     /// Erase its takes too
@@ -217,7 +217,10 @@ fn written(context: &Context, out: &std::path::Path, n_bytes: usize) -> anyhow::
 
 async fn delete(context: &Context, args: &DeleteArgs) -> anyhow::Result<ExitCode> {
     let question = format!("Erase the actor {} with all its revisions?", args.id);
-    if !args.yes && terminal::is_interactive() && !terminal::confirm(&question)? {
+    if !args.yes && !terminal::is_interactive() {
+        bail!("nobody can be asked without a terminal, nothing was erased: give --yes");
+    }
+    if !args.yes && !terminal::confirm(&question)? {
         eprintln!("nothing was erased");
         return Ok(ExitCode::FAILURE);
     }

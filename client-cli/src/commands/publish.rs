@@ -42,7 +42,7 @@ pub struct PublishArgs {
     /// Lossless, as fast as the server takes the frames, instead of in real time
     #[arg(long)]
     fast: bool,
-    /// Stable id of this capture client, 1 to 64 of A-Z, a-z, 0-9, . _ - [default: frontalis-HOST]
+    /// Stable id of this capture client, 1 to 64 of A-Z, a-z, 0-9, . _ - [default: frontalis-HOST-PID]
     #[arg(long, value_name = "NAME")]
     publisher: Option<String>,
     /// Take the session from another publisher

@@ -7,7 +7,7 @@ use clap::{Args, Subcommand};
 use frontalis_client::{error::ClientError, proto};
 use proto::session_service_client::SessionServiceClient;
 
-use super::{Context, actor_name, session_name, settings::SettingsArgs, short_id};
+use super::{Context, actor_name, names::new_session_id, session_name, settings::SettingsArgs};
 use crate::{
     json,
     terminal::{say, tables},
@@ -41,7 +41,7 @@ pub struct CreateArgs {
     #[arg(long, value_name = "ID")]
     actor: String,
     /// Id of the session: 1 to 63 of a-z, 0-9, - and _ [default: the server makes one]
-    #[arg(long)]
+    #[arg(long, value_parser = new_session_id)]
     id: Option<String>,
     /// Name for people
     #[arg(long, value_name = "NAME")]
@@ -110,10 +110,7 @@ async fn create(
     args: CreateArgs,
 ) -> Result<Option<proto::Session>, ClientError> {
     let mut request = proto::CreateSessionRequest {
-        session_id: args
-            .id
-            .map(|it| short_id(&it).to_owned())
-            .unwrap_or_default(),
+        session_id: args.id.unwrap_or_default(),
         actor: actor_name(&args.actor),
         settings: Some(args.settings.to_proto()),
         display_name: args.display_name.unwrap_or_default(),

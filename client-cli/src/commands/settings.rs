@@ -63,12 +63,12 @@ pub struct SettingsArgs {
     #[arg(long, value_name = "BOOL", num_args = 0..=1, default_missing_value = "true", require_equals = true)]
     align_on_request: Option<bool>,
 
-    /// Milliseconds without a frame until the session is stale [default: three frames, at least 100]
-    #[arg(long, value_name = "MILLIS", value_parser = clap::value_parser!(u32).range(1..))]
+    /// Milliseconds without a frame until the session is stale, 10 to 3600000 [default: three frames, at least 100]
+    #[arg(long, value_name = "MILLIS", value_parser = clap::value_parser!(u32).range(10..=3_600_000))]
     stale_after_millis: Option<u32>,
 
-    /// Seconds of silence until another publisher may have the session [default: 10]
-    #[arg(long, value_name = "SECS", value_parser = clap::value_parser!(u32).range(1..))]
+    /// Seconds of silence until another publisher may have the session, 1 to 3600 [default: 10]
+    #[arg(long, value_name = "SECS", value_parser = clap::value_parser!(u32).range(1..=3_600))]
     publisher_timeout_secs: Option<u32>,
 }
 

@@ -73,7 +73,7 @@ pub struct SimulateArgs {
     /// Write the markers as they were published, centimeters
     #[arg(long, value_name = "OUT.trc")]
     markers: Option<PathBuf>,
-    /// Stable id of this capture client [default: frontalis-HOST]
+    /// Stable id of this capture client [default: frontalis-HOST-PID]
     #[arg(long, value_name = "NAME")]
     publisher: Option<String>,
     /// Take the session from another publisher

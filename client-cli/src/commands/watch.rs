@@ -50,8 +50,8 @@ pub struct WatchArgs {
     /// Samples in flight, 1 to 32, when the newest wins: 2 on a local network, rate x round trip + 1 in general
     #[arg(long, value_name = "N", default_value_t = 2, value_parser = clap::value_parser!(u32).range(1..=32), conflicts_with = "every_frame")]
     credits: u32,
-    /// At most so many samples a second when the newest wins; 0: no limit
-    #[arg(long, value_name = "HZ", default_value_t = 60.0, value_parser = super::numbers::not_negative, conflicts_with = "every_frame")]
+    /// At most so many samples a second when the newest wins; 0: as many as the credits let through
+    #[arg(long, value_name = "HZ", default_value_t = 0.0, value_parser = super::numbers::not_negative, conflicts_with = "every_frame")]
     max_rate: f64,
 }
 

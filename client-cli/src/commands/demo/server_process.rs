@@ -4,6 +4,7 @@ use std::{
     fs::{self, File},
     io::ErrorKind,
     net::{SocketAddr, TcpListener},
+    os::unix::process::ExitStatusExt as _,
     path::{Path, PathBuf},
     process::Stdio,
     time::Duration,
@@ -25,8 +26,6 @@ const READY_TIMEOUT: Duration = Duration::from_secs(15);
 const READY_POLL: Duration = Duration::from_millis(50);
 /// A server drains within five seconds (CONTRACTS O-13).
 const STOP_TIMEOUT: Duration = Duration::from_secs(7);
-/// Lines of the server's log that are shown when it fails.
-const LOG_LINES: usize = 10;
 
 /// A running server. Dropped without [`stop`](Self::stop) it is killed.
 pub struct ServerProcess {
@@ -100,15 +99,17 @@ impl ServerProcess {
         }
     }
 
-    /// Fails, with the end of the log, when the server is gone.
+    /// Fails, with the log's last complaint, when the server is gone.
     pub fn check_running(&mut self) -> anyhow::Result<()> {
         let Some(status) = self.child.try_wait()? else {
             return Ok(());
         };
         let log = fs::read_to_string(&self.log).unwrap_or_default();
-        let lines: Vec<_> = log.lines().collect();
-        let tail = lines[lines.len().saturating_sub(LOG_LINES)..].join("\n  ");
-        bail!("the server stopped with {status}; the end of its log:\n  {tail}")
+        bail!(
+            "the server stopped with {status}: {} (its log is {})",
+            complaint(&log),
+            self.log.display()
+        )
     }
 
     /// Ends the server in order and waits for it.
@@ -125,7 +126,8 @@ impl ServerProcess {
         let log = self.log.display();
         if let Ok(status) = timeout(STOP_TIMEOUT, self.child.wait()).await {
             let status = status?;
-            if !status.success() {
+            // A server that was still starting may not have listened for the signal yet.
+            if !status.success() && status.signal() != Some(Signal::TERM.as_raw()) {
                 bail!("the server ended with {status}; its log is {log}");
             }
             return Ok(());
@@ -138,12 +140,25 @@ impl ServerProcess {
     }
 }
 
+/// The last line of a log that says why the program failed; without one, its last line.
+fn complaint(log: &str) -> &str {
+    let says_why = |it: &&str| it.starts_with("frontalis-server:") || it.contains("ERROR");
+    let mut lines = log.lines().map(str::trim).filter(|it| !it.is_empty());
+    let last = lines.clone().next_back();
+    lines
+        .rfind(says_why)
+        .or(last)
+        .unwrap_or("it wrote no reason")
+}
+
 /// Says in one line that the port is taken, before anything is started.
 fn check_port_is_free(listen: &SocketAddr) -> anyhow::Result<()> {
     match TcpListener::bind(listen) {
         Ok(_) => Ok(()),
         Err(error) if error.kind() == ErrorKind::AddrInUse => {
-            bail!("{listen} is in use by another program: stop it, or give --listen 127.0.0.1:PORT")
+            bail!(
+                "{listen} is in use by another program: stop it, or give --listen 127.0.0.1:PORT (make demo DEMO_LISTEN=127.0.0.1:PORT)"
+            )
         }
         Err(error) => Err(error).with_context(|| format!("cannot listen on {listen}")),
     }
@@ -170,6 +185,17 @@ mod tests {
         let address = taken.local_addr().unwrap();
         let error = check_port_is_free(&address).unwrap_err().to_string();
         assert!(error.contains(&address.to_string()) && error.contains("in use"));
+        assert!(error.contains("DEMO_LISTEN="));
         assert_eq!(error.lines().count(), 1);
+    }
+
+    #[test]
+    fn a_failed_server_is_quoted_with_the_line_that_says_why() {
+        let log =
+            "INFO opening\nfrontalis-server: the data directory is in use\n  by process 7\n\n";
+        let why = "frontalis-server: the data directory is in use";
+        assert_eq!(complaint(log), why);
+        assert_eq!(complaint("Killed\n"), "Killed");
+        assert!(!complaint("").is_empty());
     }
 }
