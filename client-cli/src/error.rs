@@ -90,6 +90,7 @@ fn advice_on(reason: &str) -> Option<&'static str> {
         "FRAME_CONFLICT" | "LATE" => {
             "the session already has frames of these numbers: give --renumber, or use a new session"
         }
+        "FRAME_NUMBER" => "frame numbers start at 1: give --renumber",
         "TOO_MANY_REJECTS" => "the first rejected frame above says what is wrong with the file",
         "BASIS_RANK" => {
             "some muscles move the markers alike: correct the basis, or accept it with --regularize"

@@ -115,6 +115,9 @@ fn usable_frame(
     actor: &Actor,
     newest: Option<u64>,
 ) -> Result<MarkerFrame, &'static str> {
+    if frame.number == 0 {
+        return Err("FRAME_NUMBER");
+    }
     if newest.is_some_and(|it| frame.number <= it) {
         return Err("LATE");
     }

@@ -77,7 +77,7 @@ impl FrameOrder {
     }
 
     pub(super) fn judge(&self, number: u64, content_hash: u64) -> Verdict {
-        // Numbers count from 1.
+        // Numbers count from 1, and the wire refuses 0; nothing can come before the first.
         if number == 0 {
             return Verdict::Late;
         }

@@ -127,6 +127,10 @@ pub fn frame(sent: &v1::MarkerFrame, shape: &StreamShape) -> Result<IncomingFram
         reason,
         detail,
     };
+    if sent.number == 0 {
+        let detail = "frame numbers start at 1".to_owned();
+        return Err(reject("FRAME_NUMBER", detail));
+    }
     let n_expected = shape.marker_names.len() * 3;
     let n_found = sent.positions.len();
     if n_found != 0 && n_found != n_expected {

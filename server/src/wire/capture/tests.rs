@@ -55,6 +55,17 @@ fn a_missing_marker_is_occluded_in_one_or_all_coordinates() {
 }
 
 #[test]
+fn a21_number_zero_is_refused_for_what_it_is() {
+    let zero = v1::MarkerFrame {
+        number: 0,
+        ..sent(&[0.0; 6])
+    };
+    let rejection = frame(&zero, &shape(LengthUnit::Centimeter)).unwrap_err();
+    assert_eq!(rejection.reason, "FRAME_NUMBER");
+    assert_eq!(rejection.detail, "frame numbers start at 1");
+}
+
+#[test]
 fn an_infinite_coordinate_is_named_without_its_value() {
     let bad = sent(&[1.0, 2.0, 3.0, f32::NEG_INFINITY, f32::NAN, 0.0]);
     let rejection = frame(&bad, &shape(LengthUnit::Meter)).unwrap_err();

@@ -120,12 +120,25 @@ async fn a21_a_passed_number_is_late_and_never_ends_the_stream() {
     let mut publisher = stage.publisher("stage").await;
     publisher.publish(stage.frames([1, 2, 3, 5, 8])).await;
     for _ in 0..40 {
-        publisher.send(stage.frames([4, 6, 0])).await;
+        publisher.send(stage.frames([4, 6, 7])).await;
     }
     publisher.publish(stage.frames([9])).await;
     assert_eq!(publisher.rejected.len(), 120);
     assert!(publisher.rejected.iter().all(|it| it.1 == "LATE"));
     assert_eq!(stage.session.status().frames_late, 120);
+}
+
+#[tokio::test(start_paused = true)]
+async fn a21_number_zero_is_no_late_frame_and_leaves_no_gap() {
+    let stage = Stage::new().await;
+    let mut recorder = stage.renderer(every_frame()).await;
+    let mut publisher = stage.publisher("stage").await;
+    publisher.publish(stage.frames([0, 1, 2, 3, 4])).await;
+    assert_eq!(publisher.rejected, [(0, "FRAME_NUMBER".to_owned())]);
+    let status = stage.session.status();
+    assert_eq!((status.frames_rejected, status.frames_late), (1, 0));
+    let expected: Vec<_> = (1..=4).map(|it| sample(it, it)).collect();
+    assert_eq!(recorder.see_through(4).await, expected);
 }
 
 #[tokio::test(start_paused = true)]
