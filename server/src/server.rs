@@ -124,7 +124,7 @@ pub async fn run(
         ),
         sessions: SessionsGrpc(sessions.clone()),
         capture: CaptureGrpc::new(registry.clone(), store.clone(), clock),
-        curves: CurvesGrpc::new(registry.clone(), clock),
+        curves: CurvesGrpc::new(registry.clone(), store.clone(), clock),
         max_message_bytes: config.limits.message_bytes(),
         calls: Calls::new(&config.limits),
     };

@@ -14,7 +14,7 @@ use tonic::Status;
 
 use super::grpc::status::refuse;
 use crate::{
-    catalogue::{CatalogueError, NewSession, SessionRow, Store, StoredAlignment},
+    catalogue::{CatalogueError, NewSession, SessionRow, Store, StoredAlignment, StoredSettings},
     clock::ServerClock,
     name::{ActorId, SessionId},
     session::{
@@ -171,7 +171,8 @@ impl Sessions {
     /// As it goes over the wire; then nothing has changed.
     pub async fn update(&self, id: &SessionId, change: Change) -> Result<v1::Session, Status> {
         let _turn = self.turn().await;
-        let handle = self.open_handle(id).await?;
+        let handle = self.handle(id).await?;
+        handle.check_open()?;
         let settings = (change.settings)(&handle.settings())?;
         let revision = change
             .actor_revision
@@ -183,6 +184,7 @@ impl Sessions {
             )),
             None => None,
         };
+        let before = (to_stored(&handle.settings()), handle.actor_revision());
         self.store
             .update_session(id, to_stored(&settings), revision)
             .await?;
@@ -190,8 +192,21 @@ impl Sessions {
             settings: Some(settings),
             actor,
         };
-        handle.update(update).await?;
+        if let Err(refused) = handle.update(update).await {
+            self.put_back(id, before).await;
+            return Err(refused.into());
+        }
+        tracing::info!(session = %id, actor_revision = revision, "session updated");
         Ok(live(&handle))
+    }
+
+    /// The session did not change, so what the catalogue says of it must not either.
+    async fn put_back(&self, id: &SessionId, (settings, revision): (StoredSettings, u32)) {
+        let put_back = self.store.update_session(id, settings, revision).await;
+        if let Err(error) = put_back {
+            let error = &error as &dyn std::error::Error;
+            tracing::error!(session = %id, error, "the settings of a session could not be put back");
+        }
     }
 
     /// Takes the next usable frames as the neutral face again.
@@ -200,8 +215,9 @@ impl Sessions {
     ///
     /// As it goes over the wire.
     pub async fn recenter(&self, id: &SessionId) -> Result<v1::Session, Status> {
-        let handle = self.open_handle(id).await?;
+        let handle = self.handle(id).await?;
         handle.recenter().await?;
+        tracing::info!(session = %id, "session recentered");
         Ok(live(&handle))
     }
 
@@ -247,13 +263,13 @@ impl Sessions {
         Ok(ids.len())
     }
 
-    /// The session in this process, for its curves.
+    /// As [`in_process`].
     ///
     /// # Errors
     ///
-    /// `NOT_FOUND`, as it goes over the wire.
-    pub fn handle(&self, id: &SessionId) -> Result<SessionHandle, Status> {
-        Ok(self.registry.get(id)?)
+    /// As there.
+    pub async fn handle(&self, id: &SessionId) -> Result<SessionHandle, Status> {
+        in_process(&self.registry, &self.store, id).await
     }
 
     /// Every session of this process.
@@ -272,15 +288,6 @@ impl Sessions {
         self.clock
             .now_nanos()
             .saturating_add(self.clock.unix_offset_nanos())
-    }
-
-    /// The session in this process; one that is only in the catalogue has ended.
-    async fn open_handle(&self, id: &SessionId) -> Result<SessionHandle, Status> {
-        if let Ok(handle) = self.registry.get(id) {
-            return Ok(handle);
-        }
-        self.store.session(id).await?;
-        Err(SessionError::Ended.into())
     }
 
     /// Starts a session from its row.
@@ -315,6 +322,23 @@ impl Sessions {
         };
         Ok(handle.update(update).await?)
     }
+}
+
+/// The session in this process; one that is only in the catalogue has ended.
+///
+/// # Errors
+///
+/// `NOT_FOUND`, or `FAILED_PRECONDITION SESSION_ENDED`, as it goes over the wire.
+pub(super) async fn in_process(
+    registry: &SessionRegistry,
+    store: &Store,
+    id: &SessionId,
+) -> Result<SessionHandle, Status> {
+    if let Ok(handle) = registry.get(id) {
+        return Ok(handle);
+    }
+    store.session(id).await?;
+    Err(SessionError::Forgotten.into())
 }
 
 fn spec(

@@ -55,6 +55,9 @@ pub enum SessionError {
     /// The session ended.
     #[error("the session ended")]
     Ended,
+    /// The session ended, and only the catalogue knows of it.
+    #[error("the session ended; its samples are no longer kept")]
+    Forgotten,
     /// The session is broken.
     #[error("the session failed: {reason}")]
     Failed {

@@ -101,6 +101,15 @@ impl SessionHandle {
         status
     }
 
+    /// Whether it takes requests.
+    ///
+    /// # Errors
+    ///
+    /// Why it does not: it ended, failed, or the server drains.
+    pub fn check_open(&self) -> Result<(), SessionError> {
+        self.shared.intake().check_open()
+    }
+
     /// Changes settings or moves to another revision of the actor, between two frames; returns when it is done.
     ///
     /// # Errors
@@ -115,13 +124,14 @@ impl SessionHandle {
             let (actor, actor_revision) = update.actor.unwrap_or(present);
             (settings, actor, actor_revision)
         };
-        self.shared.intake().publisher_timeout = settings.publisher_timeout;
+        let publisher_timeout = settings.publisher_timeout;
         self.ask(Command::Update {
             settings,
             actor,
             actor_revision,
             done,
         })?;
+        self.shared.intake().publisher_timeout = publisher_timeout;
         self.answered(is_done).await
     }
 

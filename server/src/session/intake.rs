@@ -390,7 +390,7 @@ impl Intake {
         }
     }
 
-    fn check_open(&self) -> Result<(), SessionError> {
+    pub(super) fn check_open(&self) -> Result<(), SessionError> {
         self.closed.as_ref().map_or(Ok(()), |it| Err(it.error()))
     }
 

@@ -76,6 +76,15 @@ async fn the_id_of_an_ended_session_starts_a_new_run() {
         refusal(refused),
         (Code::FailedPrecondition, "SESSION_ENDED".into())
     );
+    let update = v1::UpdateSessionRequest {
+        name: name("s"),
+        ..Default::default()
+    };
+    let refused = stage.sessions().update_session(update).await;
+    assert_eq!(
+        refusal(refused),
+        (Code::FailedPrecondition, "SESSION_ENDED".into())
+    );
     let again = stage
         .sessions()
         .create_session(create("s"))
@@ -223,6 +232,12 @@ async fn actors_and_sessions_are_back_after_a_restart_as_a_new_run() {
     assert_eq!(over.settings.unwrap().neutral_frames, Some(7));
     let status = over.status.unwrap();
     assert_eq!((status.state(), status.run), (v1::SessionState::Ended, 1));
+    let (status, body) = again.get("/api/v1/sessions/over/curves").await;
+    assert_eq!(status, 409);
+    assert!(
+        body.contains("urn:frontalis:problem:SESSION_ENDED"),
+        "{body}"
+    );
     let reused = again
         .sessions()
         .create_session(create("over"))

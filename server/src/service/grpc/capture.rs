@@ -14,6 +14,7 @@ use super::status::refuse;
 use crate::{
     catalogue::Store,
     clock::ServerClock,
+    service::sessions::in_process,
     session::{
         Grant, Granted, IncomingFrame, Offer, Publication, PublishEnd, SessionRegistry, Wait,
     },
@@ -69,7 +70,7 @@ impl CaptureGrpc {
             return Err(not_implemented());
         }
         let start = wire::start(sent)?;
-        let session = self.registry.get(&start.session)?;
+        let session = in_process(&self.registry, &self.store, &start.session).await?;
         session.check_claim(&start.publisher, start.takeover)?;
         let epoch = self.store.next_epoch(&start.session).await?;
         let publication = session.grant(Grant {

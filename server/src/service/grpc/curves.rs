@@ -12,8 +12,10 @@ use tonic::{Code, Request, Response, Status, Streaming};
 
 use super::{ending, status::refuse};
 use crate::{
+    catalogue::Store,
     clock::ServerClock,
     hub::{Closing, Delivered, Subscription},
+    service::sessions::in_process,
     session::{SessionError, SessionRegistry},
     wire::curve::{self as wire, SampleDetail},
 };
@@ -25,13 +27,18 @@ const START_TIMEOUT: Duration = Duration::from_secs(10);
 #[derive(Clone)]
 pub struct CurvesGrpc {
     registry: SessionRegistry,
+    store: Store,
     clock: ServerClock,
 }
 
 impl CurvesGrpc {
-    /// Serves the sessions of `registry`.
-    pub fn new(registry: SessionRegistry, clock: ServerClock) -> Self {
-        Self { registry, clock }
+    /// Serves the sessions of `registry`; `store` knows of those that ended.
+    pub fn new(registry: SessionRegistry, store: Store, clock: ServerClock) -> Self {
+        Self {
+            registry,
+            store,
+            clock,
+        }
     }
 
     /// The responses to one subscriber's requests.
@@ -60,14 +67,14 @@ impl CurvesGrpc {
     }
 
     /// The subscription, and the header that comes first.
-    fn open(
+    async fn open(
         &self,
         sent: &v1::SubscribeStart,
         peer: String,
         can_return_credits: bool,
     ) -> Result<(Flow, v1::SubscribeResponse), Status> {
         let request = wire::start(sent, peer, can_return_credits)?;
-        let session = self.registry.get(&request.session)?;
+        let session = in_process(&self.registry, &self.store, &request.session).await?;
         let subscription = session.hub().subscribe(request.spec)?;
         let header = wire::header(
             &session,
@@ -109,7 +116,7 @@ impl CurveService for CurvesGrpc {
         request: Request<v1::SubscribeStart>,
     ) -> Result<Response<Responses>, Status> {
         let peer = peer_of(&request);
-        let (flow, header) = self.open(request.get_ref(), peer.clone(), false)?;
+        let (flow, header) = self.open(request.get_ref(), peer.clone(), false).await?;
         let phase = Phase::Opened(Box::new(flow), Box::new(header));
         let responses = self.responses(stream::pending(), phase, peer);
         Ok(Response::new(responses))
@@ -189,7 +196,7 @@ where
         let start = request
             .start
             .ok_or_else(|| out_of_order("the first message must be start"))?;
-        self.service.open(&start, self.peer.clone(), true)
+        self.service.open(&start, self.peer.clone(), true).await
     }
 }
 

@@ -142,7 +142,9 @@ impl From<SessionError> for Status {
                 Refusal::new(Code::ResourceExhausted, "SESSION_BUSY", message)
                     .retry_after(RETRY_AFTER)
             }
-            SessionError::Ended => Refusal::new(Code::FailedPrecondition, "SESSION_ENDED", message),
+            SessionError::Ended | SessionError::Forgotten => {
+                Refusal::new(Code::FailedPrecondition, "SESSION_ENDED", message)
+            }
             SessionError::Failed { .. } => Refusal::new(Code::Internal, "SESSION_FAILED", message),
             SessionError::Draining => {
                 Refusal::new(Code::Unavailable, "DRAINING", message).retry_after(RETRY_AFTER)

@@ -88,3 +88,6 @@ impl SessionService for SessionsGrpc {
         Ok(Response::new(v1::EndSessionResponse { session }))
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -26,6 +26,7 @@ use crate::{
     executor::Workers,
     fs::MemFs,
     name::{ActorId, SessionId},
+    service::sessions::Sessions,
     session::{
         RestoredAlignment, SessionEvent, SessionHandle, SessionLimits, SessionRegistry,
         SessionSettings, SessionSpec,
@@ -41,6 +42,8 @@ pub(super) struct Stage {
     pub(super) session: SessionHandle,
     pub(super) capture: CaptureGrpc,
     pub(super) curves: CurvesGrpc,
+    pub(super) sessions: Sessions,
+    pub(super) store: Store,
     pub(super) events: mpsc::Receiver<SessionEvent>,
     pub(super) actor: Arc<Actor>,
 }
@@ -85,8 +88,10 @@ impl Stage {
             })
             .unwrap();
         Self {
-            capture: CaptureGrpc::new(registry.clone(), store, clock),
-            curves: CurvesGrpc::new(registry.clone(), clock),
+            capture: CaptureGrpc::new(registry.clone(), store.clone(), clock),
+            curves: CurvesGrpc::new(registry.clone(), store.clone(), clock),
+            sessions: Sessions::new(store.clone(), registry.clone(), clock, 4),
+            store,
             registry,
             session,
             events,

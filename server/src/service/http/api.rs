@@ -91,7 +91,7 @@ pub(super) async fn curves(
     let Query(query) = query.map_err(|error| unreadable(&error))?;
     let [usual, most] = CURVES;
     let limit = query.limit.unwrap_or(usual).min(most);
-    let handle = doors.sessions.handle(&id)?;
+    let handle = doors.sessions.handle(&id).await?;
     let page = handle
         .hub()
         .page(query.run.filter(|run| *run != 0), query.after, limit)
