@@ -89,7 +89,7 @@ mod tests {
             "frontalis watch take-1",
             "frontalis watch take-1 --every-frame --from-start --until-end --csv",
             "frontalis watch take-1 --every-frame --frames 100 --json",
-            "frontalis solve take.trc --actor face.zip --regions split --csv",
+            "frontalis solve take.trc --actor face.zip --regions split --renumber --csv",
             "frontalis simulate --actor reference --session take-1 --rate 60 --seconds 10 --cameras 5 --pixel-noise 0.3 --misses 0.03 --seed 7 --truth truth.csv",
             "frontalis demo --seconds 10",
             "frontalis completions bash",

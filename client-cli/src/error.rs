@@ -59,6 +59,7 @@ impl ClientError {
     /// What a person can do about it.
     pub fn advice(&self) -> Option<&'static str> {
         match self.reason.as_deref() {
+            Some("NAME") => self.advice_on_name(),
             Some(reason) => advice_on(reason),
             None if self.code == Code::Unavailable => {
                 Some("check that the server runs and that --server names its address")
@@ -66,9 +67,23 @@ impl ClientError {
             None => None,
         }
     }
+
+    /// Names are of several kinds, told by the refused field.
+    fn advice_on_name(&self) -> Option<&'static str> {
+        match self.metadata.get("field").map(String::as_str) {
+            Some("display_name") => {
+                Some("--display-name takes at most 128 characters of plain text, in one line")
+            }
+            Some("session_id" | "actor_id" | "actor" | "session" | "start.session" | "name") => {
+                Some("ids are 1 to 63 of a-z, 0-9, - and _, the first a letter or digit")
+            }
+            _ => None,
+        }
+    }
 }
 
-fn advice_on(reason: &str) -> Option<&'static str> {
+/// What a person can do about a refusal, a rejected frame or a failed alignment of this reason.
+pub fn advice_on(reason: &str) -> Option<&'static str> {
     Some(match reason {
         "SESSION_OWNED" => {
             "another publisher holds the session: wait until it stops, or give --takeover"
@@ -79,6 +94,9 @@ fn advice_on(reason: &str) -> Option<&'static str> {
         "UNITS_SUSPECT" => {
             "the coordinates are in another unit than declared: correct the file's Units field or the rig's export"
         }
+        "OUT_OF_VOLUME" => {
+            "coordinates lie beyond 10 m: the unit may be wrong, correct the file's Units field or the rig's export"
+        }
         "MIRRORED" => "one axis of the capture is flipped: correct the rig's axes or the export",
         "NEUTRAL_INCOMPLETE" => {
             "let the actor hold a neutral face with all markers seen, then `frontalis session recenter`"
@@ -88,7 +106,7 @@ fn advice_on(reason: &str) -> Option<&'static str> {
             "no marker name is one of the actor's: `frontalis actor show ID` lists them"
         }
         "FRAME_CONFLICT" | "LATE" => {
-            "the session already has frames of these numbers: give --renumber, or use a new session"
+            "frames of these numbers came before: give --renumber, or use a new session"
         }
         "FRAME_NUMBER" => "frame numbers start at 1: give --renumber",
         "TOO_MANY_REJECTS" => "the first rejected frame above says what is wrong with the file",
@@ -100,9 +118,11 @@ fn advice_on(reason: &str) -> Option<&'static str> {
         "SESSION_EXISTS" => "end it with `frontalis session end ID`, or choose another --id",
         "ACTOR" => "`frontalis actor list` shows what there is",
         "SESSION" => "`frontalis session list` shows what there is",
+        "SUBSCRIBERS" => {
+            "close another subscriber (`frontalis session show ID` lists them), or raise the limit"
+        }
         "SUBSCRIBER_LAGGED" => "read faster, or watch without --every-frame",
         "DISK_LOW" => "free disk space on the server",
-        "NAME" => "ids are 1 to 63 of a-z, 0-9, - and _, the first a letter or digit",
         _ => return None,
     })
 }
@@ -152,6 +172,13 @@ pub(crate) fn refusal_for_tests(code: Code, reason: &str) -> tonic::Status {
     tonic::Status::with_details(code, "refused", details.into())
 }
 
+/// A limit: a status that asks to wait.
+#[cfg(test)]
+pub(crate) fn refusal_to_wait_for_tests(code: Code, reason: &str, millis: u64) -> tonic::Status {
+    let details = details::encode_for_tests(reason, &[], Some(millis));
+    tonic::Status::with_details(code, "refused", details.into())
+}
+
 #[cfg(test)]
 mod tests {
     use tonic::Status;
@@ -176,6 +203,18 @@ mod tests {
         );
         assert!(error.advice().is_some_and(|it| it.contains("--takeover")));
         assert!(!error.is_transient());
+    }
+
+    #[test]
+    fn advice_on_a_refused_name_is_for_its_kind() {
+        let advice = |field: &str| {
+            let details = details::encode_for_tests("NAME", &[("field", field)], None);
+            let status = Status::with_details(Code::InvalidArgument, "", details.into());
+            ClientError::from(status).advice()
+        };
+        assert!(advice("session_id").is_some_and(|it| it.contains("ids are")));
+        assert!(advice("display_name").is_some_and(|it| !it.contains("id")));
+        assert_eq!(advice("start.marker_names"), None);
     }
 
     #[test]

@@ -1,7 +1,8 @@
 //! A TRC file as frames to publish or to solve.
 //!
 //! Coordinates stay `f32` in the file's unit, as the wire carries them; `capture_time_nanos` is the file's time × 10⁹
-//! rounded; numbers and rate are the file's. `frontalis publish` and `frontalis solve` read through this one file, so
+//! rounded; numbers and rate are the file's. Frame numbers start at 1 (capture.proto: a session expects 1 first), so a
+//! file with a frame 0 is refused unless its frames are numbered anew. `frontalis publish` and `frontalis solve` read through this one file, so
 //! that both see the same bits.
 
 use std::{io, path::Path};
@@ -51,14 +52,57 @@ pub enum TakeFileError {
         /// The file.
         path: String,
     },
+    /// A frame has a number that no session takes.
+    #[error(
+        "{path} has a frame number 0, time {time_s} s, row {row} of its frames; frame numbers start at 1: \
+         give --renumber, or number the file's frames from 1"
+    )]
+    FrameZero {
+        /// The file.
+        path: String,
+        /// Which of the file's frames, from 1.
+        row: usize,
+        /// The frame's time, seconds.
+        time_s: f64,
+    },
 }
 
-/// Reads a TRC file.
+/// Reads a TRC file whose frame numbers are to be kept.
+///
+/// # Errors
+///
+/// When the file cannot be read, is too large, is not TRC, has no frames, or has a frame number 0.
+pub fn read(file: &Path) -> Result<TrcTake, TakeFileError> {
+    let take = read_any_numbers(file)?;
+    match take.frames.iter().position(|it| it.number == 0) {
+        Some(idx) => Err(TakeFileError::FrameZero {
+            path: file.display().to_string(),
+            row: idx + 1,
+            time_s: take.frames[idx].time_s,
+        }),
+        None => Ok(take),
+    }
+}
+
+/// Reads a TRC file and numbers its frames from 1 in the order of the rows, as a new session would.
+///
+/// # Errors
+///
+/// As [`read_any_numbers`].
+pub fn read_renumbered(file: &Path) -> Result<TrcTake, TakeFileError> {
+    let mut take = read_any_numbers(file)?;
+    for (frame, number) in take.frames.iter_mut().zip(1..) {
+        frame.number = number;
+    }
+    Ok(take)
+}
+
+/// Reads a TRC file for somebody who numbers its frames anew.
 ///
 /// # Errors
 ///
 /// When the file cannot be read, is too large, is not TRC, or has no frames.
-pub fn read(file: &Path) -> Result<TrcTake, TakeFileError> {
+pub fn read_any_numbers(file: &Path) -> Result<TrcTake, TakeFileError> {
     let path = file.display().to_string();
     let bytes = match std::fs::metadata(file).map(|it| it.len()) {
         Ok(bytes) if bytes > MAX_FILE_BYTES => return Err(TakeFileError::TooLarge { path, bytes }),
@@ -112,10 +156,37 @@ Frame#\tTime\tchin\t\t\tnose_tip
 ";
 
     fn read_text(text: &str) -> Result<TrcTake, TakeFileError> {
+        read_text_by(read, text)
+    }
+
+    fn read_text_by<T>(read: impl Fn(&Path) -> T, text: &str) -> T {
         let directory = tempfile::tempdir().unwrap();
         let file = directory.path().join("toy.trc");
         std::fs::write(&file, text).unwrap();
         read(&file)
+    }
+
+    #[test]
+    fn a_frame_number_0_is_refused_by_name_unless_the_frames_are_renumbered() {
+        let from_zero = TAKE
+            .replace("\n1\t0.000000", "\n0\t0.000000")
+            .replace("\n2\t0.016667", "\n1\t0.016667");
+        let error = read_text(&from_zero).unwrap_err();
+        assert!(matches!(error, TakeFileError::FrameZero { row: 1, .. }));
+        let error = error.to_string();
+        for part in ["toy.trc", "frame number 0", "start at 1", "--renumber"] {
+            assert!(error.contains(part), "{error}");
+        }
+        let renumbered = read_text_by(read_renumbered, &from_zero).unwrap();
+        // The same frames under the numbers that a new session gives them.
+        assert_eq!(
+            renumbered.frames[0].positions,
+            read_text(TAKE).unwrap().frames[0].positions
+        );
+        let numbers: Vec<_> = renumbered.frames.iter().map(|it| it.number).collect();
+        assert_eq!(numbers, [1, 2]);
+        let kept = read_text_by(read_any_numbers, &from_zero).unwrap();
+        assert_eq!(kept.frames[0].number, 0);
     }
 
     #[test]

@@ -54,7 +54,11 @@ pub struct PublishArgs {
 }
 
 pub async fn run(context: &Context, args: PublishArgs) -> anyhow::Result<ExitCode> {
-    let take = take_file::read(&args.take)?;
+    let take = if args.renumber {
+        take_file::read_any_numbers(&args.take)?
+    } else {
+        take_file::read(&args.take)?
+    };
     let settings = CaptureSettings {
         session: session_name(&args.session),
         publisher: args.publisher.clone().unwrap_or_else(default_publisher),

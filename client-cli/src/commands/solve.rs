@@ -44,12 +44,19 @@ pub struct SolveArgs {
     /// Accept a basis whose muscles the markers cannot tell apart
     #[arg(long)]
     regularize: bool,
+    /// Number the frames from 1, as `publish --renumber` does in a new session
+    #[arg(long)]
+    renumber: bool,
     #[command(flatten)]
     settings: AnalysisArgs,
 }
 
 pub fn run(context: &Context, args: &SolveArgs) -> anyhow::Result<ExitCode> {
-    let take = take_file::read(&args.take)?;
+    let take = if args.renumber {
+        take_file::read_renumbered(&args.take)?
+    } else {
+        take_file::read(&args.take)?
+    };
     let package = fs::read(&args.actor)
         .with_context(|| format!("cannot read the package {}", args.actor.display()))?;
     let rank = if args.regularize {

@@ -94,7 +94,7 @@ pub async fn run(context: &Context, args: WatchArgs) -> anyhow::Result<ExitCode>
     let end = loop {
         tokio::select! {
             event = curves.next() => {
-                let event = event.with_context(|| format!("following {} was ended", args.session))?;
+                let event = event.with_context(|| watched.what_failed(&args.session))?;
                 let Some(event) = event else { break End::Cut };
                 watched.take(&event);
                 let is_end = matches!(event, CurveEvent::End(_));
@@ -135,6 +135,7 @@ enum End {
 /// What a table cannot show.
 #[derive(Debug, Default)]
 struct Watched {
+    has_begun: bool,
     samples: u64,
     gap_frames: u64,
     lost: u64,
@@ -144,6 +145,7 @@ struct Watched {
 impl Watched {
     fn take(&mut self, event: &CurveEvent) {
         match event {
+            CurveEvent::Header(_) => self.has_begun = true,
             CurveEvent::Sample(_) => self.samples += 1,
             CurveEvent::Gap(gap) => {
                 let frames = gap.last.saturating_sub(gap.first).saturating_add(1);
@@ -155,6 +157,14 @@ impl Watched {
             } => self.lost += last_sequence - first_sequence + 1,
             CurveEvent::NewRun { .. } => self.new_runs += 1,
             _ => {}
+        }
+    }
+
+    fn what_failed(&self, session: &str) -> String {
+        if self.has_begun {
+            format!("following {session} was ended")
+        } else {
+            format!("cannot follow the session {session}")
         }
     }
 

@@ -34,6 +34,8 @@ pub(super) struct Subscription {
     /// Events of one response that were not handed out yet.
     pending: VecDeque<CurveEvent>,
     phase: Phase,
+    /// Whether the server ever served this subscription.
+    has_header: bool,
     owes_credit: bool,
     skipped_before: u64,
     skipped_here: u64,
@@ -51,7 +53,7 @@ struct OpenStream {
 }
 
 impl Subscription {
-    /// The first connection is not tried twice: a wrong name or address should be told at once.
+    /// The first connection is not tried twice: a wrong name or address, or a limit, should be told at once.
     pub async fn open(channel: Channel, settings: CurveSettings) -> Result<Self, ClientError> {
         let mut subscription = Self {
             channel,
@@ -60,6 +62,7 @@ impl Subscription {
             backoff: Backoff::new(Backoff::process_seed()),
             pending: VecDeque::new(),
             phase: Phase::Over,
+            has_header: false,
             owes_credit: false,
             skipped_before: 0,
             skipped_here: 0,
@@ -201,7 +204,7 @@ impl Subscription {
         if place_is_gone {
             // The exact loss shows in the next sample's sequence, a new run in the next header.
             self.position.lose_place();
-        } else if !error.is_transient() {
+        } else if !self.has_header || !error.is_transient() {
             return Err(error);
         }
         let wait = self.backoff.next_wait(error.retry_after);
@@ -213,6 +216,7 @@ impl Subscription {
 
     fn take(&mut self, response: SubscribeResponse) {
         if let Some(header) = response.header {
+            self.has_header = true;
             self.pending.extend(self.position.enter_run(header.run));
             self.pending.push_back(CurveEvent::Header(header));
         }

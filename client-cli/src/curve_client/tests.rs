@@ -4,7 +4,7 @@ use tonic::{Code, Status};
 
 use super::*;
 use crate::{
-    error::refusal_for_tests,
+    error::{refusal_for_tests, refusal_to_wait_for_tests},
     fake_server::{Curves, FakeServer},
     proto::{Delivery, SubscribeResponse},
 };
@@ -158,4 +158,30 @@ async fn a_refusal_is_told_at_once() {
         .await
         .unwrap_err();
     assert!(error.has_reason("SESSION"));
+}
+
+/// A limit may refuse after the stream was opened; what it asks to wait is for a subscription that was served before.
+#[tokio::test(start_paused = true)]
+async fn a_limit_ends_a_first_subscription_and_delays_a_later_one() {
+    let full = || refusal_to_wait_for_tests(Code::ResourceExhausted, "SUBSCRIBERS", 1_000);
+    let opened = SubscribeResponse::default;
+    for responses in [vec![], vec![opened()]] {
+        let server = FakeServer::with_curves([curves(responses, Some(full()))]);
+        let wanted = Wanted::EveryFrame { from: StartAt::Now };
+        let settings = CurveSettings::new("sessions/take-1", wanted);
+        let refused = match CurveClient::subscribe(server.channel(), settings).await {
+            Ok(mut client) => client.next().await.map(|_| ()),
+            Err(error) => Err(error),
+        };
+        assert!(refused.unwrap_err().has_reason("SUBSCRIBERS"));
+        assert_eq!(server.record().subscriptions.len(), 1);
+    }
+    let (_, events) = follow(vec![
+        curves(vec![header(1), samples(1..=2)], Some(cut())),
+        curves(vec![], Some(full())),
+        curves(vec![opened()], Some(full())),
+        curves(vec![header(1), samples(3..=4), end()], None),
+    ])
+    .await;
+    assert_eq!(sequences(&events), [1, 2, 3, 4]);
 }
