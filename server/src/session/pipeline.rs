@@ -47,6 +47,8 @@ pub(super) struct FrameNote {
     pub(super) tag: SampleTag,
     pub(super) received_nanos: i64,
     pub(super) started_nanos: i64,
+    /// Its sample came with the alignment; until then it waited for other frames, so its times say nothing of the work.
+    pub(super) was_collected: bool,
 }
 
 /// How a frame went.
@@ -71,6 +73,8 @@ pub(super) struct Pipeline {
     actor: Arc<Actor>,
     settings: MarkerSettings,
     restored: Option<RestoredAlignment>,
+    /// Whether a neutral face was asked for that is not found yet. It outlives the analyzer, which is made anew for another
+    /// stream and after a panic.
     recenter_requested: bool,
     source: Option<SourceOfFrames>,
     awaiting: VecDeque<Awaiting>,
@@ -128,7 +132,7 @@ impl Pipeline {
     }
 
     fn analyzer(
-        &mut self,
+        &self,
         shape: &StreamShape,
         rate_hz: f64,
         alignment: Option<Alignment>,
@@ -139,7 +143,7 @@ impl Pipeline {
             return MarkerAnalyzer::resume(actor, settings, shape.unit, rate_hz, alignment);
         }
         let mut analyzer = MarkerAnalyzer::new(actor, settings, shape.unit, rate_hz);
-        if std::mem::take(&mut self.recenter_requested) {
+        if self.recenter_requested {
             analyzer.recenter();
         }
         analyzer
@@ -170,6 +174,7 @@ impl Pipeline {
             tag,
             received_nanos: waiting.received_nanos,
             started_nanos: now_nanos,
+            was_collected: false,
         }));
         let frame = MarkerFrame {
             index: FrameIndex(number),
@@ -180,10 +185,13 @@ impl Pipeline {
         // The analyzer is made anew after a panic, so nothing half changed is seen.
         match catch_unwind(AssertUnwindSafe(|| analyzer.push(frame, solved))) {
             Ok(Ok(progress)) => {
+                self.recenter_requested &= progress != Progress::Aligned;
                 self.settle(progress, outcomes);
                 Step::Progress(progress)
             }
             Ok(Err(error)) => {
+                // The request was tried; the analyzer waits for the next one, or collects anyway.
+                self.recenter_requested = false;
                 self.solved.clear();
                 self.give_up_awaiting(outcomes);
                 Step::NotAligned(error)
@@ -215,7 +223,7 @@ impl Pipeline {
     fn settle(&mut self, progress: Progress, outcomes: &mut Vec<Outcome>) {
         let mut solved = std::mem::take(&mut self.solved);
         for sample in solved.drain(..) {
-            self.settle_sample(sample, outcomes);
+            self.settle_sample(sample, progress, outcomes);
         }
         self.solved = solved;
         // Samples come for collected frames only; what else is still here will never have one.
@@ -224,7 +232,12 @@ impl Pipeline {
         }
     }
 
-    fn settle_sample(&mut self, sample: CurveSample, outcomes: &mut Vec<Outcome>) {
+    fn settle_sample(
+        &mut self,
+        sample: CurveSample,
+        progress: Progress,
+        outcomes: &mut Vec<Outcome>,
+    ) {
         let number = sample.frame.0;
         let is_awaited =
             |it: &Awaiting| matches!(it, Awaiting::Frame(note) if note.number == number);
@@ -233,7 +246,8 @@ impl Pipeline {
         }
         while let Some(oldest) = self.awaiting.pop_front() {
             match oldest {
-                Awaiting::Frame(note) if note.number == number => {
+                Awaiting::Frame(mut note) if note.number == number => {
+                    note.was_collected = progress == Progress::Aligned;
                     outcomes.push(Outcome::Sample(Box::new(sample), note));
                     return;
                 }
@@ -275,9 +289,9 @@ impl Pipeline {
         let had_alignment = self.alignment().is_some();
         self.give_up_awaiting(outcomes);
         self.restored = None;
-        match &mut self.source {
-            Some(source) => source.analyzer.recenter(),
-            None => self.recenter_requested = true,
+        self.recenter_requested = true;
+        if let Some(source) = &mut self.source {
+            source.analyzer.recenter();
         }
         had_alignment
     }

@@ -62,7 +62,7 @@ pub struct AlignmentReport {
     pub n_markers: usize,
 }
 
-/// One stage's times.
+/// One stage's times. Neutral frames are left out: their samples wait for the alignment, not for the server.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct StageLatency {
     /// `queued`, `solved`, `published`, `sent` from published to handed to a subscriber that keeps up, or `total` from frame

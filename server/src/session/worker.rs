@@ -190,7 +190,9 @@ impl Worker {
                 Outcome::Gap(gap) => Outgoing::Gap(gap),
                 Outcome::Sample(sample, note) => {
                     figures.sampled(&sample);
-                    passages.push_back((note.received_nanos, note.started_nanos));
+                    if !note.was_collected {
+                        passages.push_back((note.received_nanos, note.started_nanos));
+                    }
                     Outgoing::Sample(Box::new(PublishedSample {
                         sequence: 0,
                         sample: *sample,

@@ -13,14 +13,15 @@ use crate::{
 const NEUTRAL_FRAMES: u64 = 3;
 
 fn pipeline() -> Pipeline {
+    pipeline_with(false)
+}
+
+fn pipeline_with(align_on_request: bool) -> Pipeline {
     let actor = Arc::new(reference_face::actor());
     let mut settings = SessionSettings::default();
     settings.marker.neutral_frames = 3;
-    let names = actor.markers().iter().map(|it| it.name.clone());
-    let shape = StreamShape {
-        unit: LengthUnit::Centimeter,
-        marker_names: names.collect(),
-    };
+    settings.marker.align_on_request = align_on_request;
+    let shape = shape(&actor, LengthUnit::Centimeter);
     let mut pipeline = Pipeline::new(&SessionSpec {
         id: SessionId::parse("one").unwrap(),
         display_name: String::new(),
@@ -34,6 +35,14 @@ fn pipeline() -> Pipeline {
     });
     assert!(!pipeline.read_from(shape, 60.0, &mut Vec::new()));
     pipeline
+}
+
+fn shape(actor: &Actor, unit: LengthUnit) -> StreamShape {
+    let names = actor.markers().iter().map(|it| it.name.clone());
+    StreamShape {
+        unit,
+        marker_names: names.collect(),
+    }
 }
 
 fn waiting(pipeline: &Pipeline, number: u64) -> WaitingFrame {
@@ -127,4 +136,74 @@ fn what_is_collected_when_nothing_follows_is_a_gap() {
     push(&mut pipeline, 2, &mut outcomes);
     pipeline.give_up_awaiting(&mut outcomes);
     assert_eq!(spans(&outcomes), [(1, 2, false)]);
+}
+
+#[test]
+fn a_frame_that_waited_for_the_alignment_is_told_from_one_that_did_not() {
+    let mut pipeline = pipeline();
+    let mut outcomes = Vec::new();
+    for number in 1..=NEUTRAL_FRAMES + 2 {
+        push(&mut pipeline, number, &mut outcomes);
+    }
+    let was_collected = |it: &Outcome| match it {
+        Outcome::Sample(_, note) => note.was_collected,
+        Outcome::Gap(_) => panic!("no gap"),
+    };
+    let collected: Vec<_> = outcomes.iter().map(was_collected).collect();
+    assert_eq!(collected, [true, true, true, false, false]);
+}
+
+#[test]
+fn a_request_for_a_neutral_face_outlives_another_stream_until_it_is_met() {
+    let mut pipeline = pipeline_with(true);
+    let mut outcomes = Vec::new();
+    let step = push(&mut pipeline, 1, &mut outcomes);
+    assert_eq!(step, Step::Progress(Progress::Waiting));
+    pipeline.recenter(&mut outcomes);
+    push(&mut pipeline, 2, &mut outcomes);
+
+    let reversed = {
+        let mut shape = shape(&pipeline.actor, LengthUnit::Centimeter);
+        shape.marker_names.reverse();
+        shape
+    };
+    assert!(!pipeline.read_from(reversed, 60.0, &mut outcomes));
+    let straight = shape(&pipeline.actor, LengthUnit::Centimeter);
+    assert!(!pipeline.read_from(straight, 60.0, &mut outcomes));
+    let collecting = |collected| {
+        Step::Progress(Progress::Collecting {
+            collected,
+            wanted: 3,
+        })
+    };
+    assert_eq!(push(&mut pipeline, 3, &mut outcomes), collecting(1));
+    assert_eq!(push(&mut pipeline, 4, &mut outcomes), collecting(2));
+    let step = push(&mut pipeline, 5, &mut outcomes);
+    assert_eq!(step, Step::Progress(Progress::Aligned));
+    let seen = spans(&outcomes);
+    assert_eq!(
+        &seen[seen.len() - 3..],
+        [(3, 3, true), (4, 4, true), (5, 5, true)]
+    );
+
+    // It was met: another stream waits for the next request.
+    let millimeters = shape(&pipeline.actor, LengthUnit::Millimeter);
+    assert!(pipeline.read_from(millimeters, 60.0, &mut outcomes));
+    let step = push(&mut pipeline, 6, &mut outcomes);
+    assert_eq!(step, Step::Progress(Progress::Waiting));
+}
+
+#[test]
+fn a_panic_while_the_neutral_face_is_collected_keeps_the_request() {
+    let mut pipeline = pipeline_with(true);
+    let mut outcomes = Vec::new();
+    pipeline.recenter(&mut outcomes);
+    push(&mut pipeline, 1, &mut outcomes);
+    pipeline.recover(&mut outcomes);
+    let step = push(&mut pipeline, 2, &mut outcomes);
+    let expected = Progress::Collecting {
+        collected: 1,
+        wanted: 3,
+    };
+    assert_eq!(step, Step::Progress(expected));
 }

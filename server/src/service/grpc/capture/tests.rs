@@ -52,6 +52,21 @@ async fn every_frame_becomes_one_sample_in_order() {
 }
 
 #[tokio::test(start_paused = true)]
+async fn latencies_leave_out_the_frames_that_waited_for_the_alignment() {
+    let stage = Stage::new().await;
+    let mut publisher = stage.publisher("stage").await;
+    for number in 1..=NEUTRAL_FRAMES + 2 {
+        publisher.publish(stage.frames([number])).await;
+        advance(Duration::from_secs(1)).await;
+    }
+    let status = stage.session.status();
+    assert_eq!(status.last_sequence, NEUTRAL_FRAMES + 2);
+    for stage in status.latencies {
+        assert!(stage.latency.max_micros < 1e6, "{stage:?}");
+    }
+}
+
+#[tokio::test(start_paused = true)]
 async fn started_says_where_to_go_on() {
     let stage = Stage::new().await;
     let mut first = stage.publisher("stage").await;
