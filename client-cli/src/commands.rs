@@ -4,6 +4,7 @@ pub mod actor;
 pub mod completions;
 pub mod demo;
 mod interrupt;
+mod marker_check;
 mod names;
 mod numbers;
 pub mod publish;

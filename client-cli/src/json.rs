@@ -6,6 +6,7 @@ use frontalis_client::{
     curve_client::CurveEvent,
     error::ClientError,
     proto::{Actor, CurveSample, Session},
+    solve::SolveError,
 };
 use serde_json::{Map, Value, json};
 
@@ -19,9 +20,22 @@ pub fn error(error: &anyhow::Error, refusal: Option<&ClientError>) -> Value {
         value["reason"] = json!(refusal.reason);
         value["metadata"] = json!(refusal.metadata);
         value["retry_after_secs"] = json!(refusal.retry_after.map(|it| it.as_secs_f64()));
-        value["advice"] = json!(refusal.advice());
+    }
+    if refusal.is_some() || advice(error, refusal).is_some() {
+        value["advice"] = json!(advice(error, refusal));
     }
     value
+}
+
+/// What can be done about an error, when the server or the analysis knows.
+pub fn advice(error: &anyhow::Error, refusal: Option<&ClientError>) -> Option<&'static str> {
+    let unsolved = || {
+        error
+            .chain()
+            .find_map(|it| it.downcast_ref::<SolveError>())
+            .and_then(SolveError::advice)
+    };
+    refusal.and_then(ClientError::advice).or_else(unsolved)
 }
 
 /// One actor.

@@ -58,8 +58,8 @@ fn report(error: &anyhow::Error, json: bool) {
         if let Some(wait) = refusal.retry_after {
             eprintln!("  the server asks to wait {:.1} s", wait.as_secs_f64());
         }
-        if let Some(advice) = refusal.advice() {
-            eprintln!("  what to do: {advice}");
-        }
+    }
+    if let Some(advice) = json::advice(error, refusal) {
+        eprintln!("  what to do: {advice}");
     }
 }

@@ -7,7 +7,7 @@ use std::{collections::BTreeMap, sync::Arc};
 
 use frontalis_analysis::{
     analyzer::{MarkerAnalyzer, MarkerSettings, Progress},
-    curve::CurveSample,
+    curve::{CurveSample, Quality},
     face::{
         actor::Actor,
         marker::{FrameIndex, MarkerFrame},
@@ -16,6 +16,8 @@ use frontalis_analysis::{
     marker_analysis::alignment::AlignmentError,
     space::PerformancePoint,
 };
+
+use crate::error::advice_on;
 
 /// A coordinate beyond ±10 m is not a face in a capture volume (A11 of the bad-input table).
 const VOLUME_CM: f64 = 1_000.0;
@@ -31,6 +33,21 @@ pub struct Solved {
     pub unaligned_frames: u64,
     /// Markers of the file that the actor does not have.
     pub unknown_markers: Vec<String>,
+    /// Markers of the actor that the alignment bound to the mesh; `None` before it.
+    pub bound_markers: Option<usize>,
+}
+
+impl Solved {
+    /// The mean marker error of a region over the frames that solved it, centimeters; `None` when none did.
+    pub fn mean_marker_error_cm(&self, region: usize) -> Option<f64> {
+        let reports = self.samples.iter().filter_map(|it| it.regions.get(region));
+        let errors: Vec<_> = reports
+            .filter(|it| it.quality != Quality::Held)
+            .map(|it| it.marker_error_cm)
+            .collect();
+        let n = errors.len() as f64;
+        (!errors.is_empty()).then(|| errors.iter().sum::<f64>() / n)
+    }
 }
 
 /// Why a take cannot be solved.
@@ -51,6 +68,23 @@ pub enum SolveError {
         #[source]
         source: AlignmentError,
     },
+}
+
+impl SolveError {
+    /// What a person can do about it; the same as for a session that refuses the capture.
+    pub fn advice(&self) -> Option<&'static str> {
+        match self {
+            Self::UnknownMarkers { .. } => advice_on("UNKNOWN_MARKERS"),
+            Self::Alignment { source, .. } => match source {
+                AlignmentError::UnitsSuspect { .. } => advice_on("UNITS_SUSPECT"),
+                AlignmentError::Mirrored => advice_on("MIRRORED"),
+                AlignmentError::Degenerate => advice_on("DEGENERATE_POSE"),
+                AlignmentError::NeutralIncomplete { .. } => {
+                    Some("begin the take with a neutral face that shows all markers")
+                }
+            },
+        }
+    }
 }
 
 /// Solves a whole take. `on_frame` is told after each frame.
@@ -92,6 +126,9 @@ pub fn solve_take(
         }
         on_frame();
     }
+    solved.bound_markers = analyzer
+        .alignment()
+        .map(|it| it.bindings.iter().flatten().count());
     Ok(solved)
 }
 
@@ -254,6 +291,39 @@ mod tests {
         }
         let error = solve_take(&take, &actor, MarkerSettings::default(), || ()).unwrap_err();
         assert!(matches!(error, SolveError::UnknownMarkers { n_markers } if n_markers > 0));
+    }
+
+    #[test]
+    fn a_region_that_was_never_solved_has_no_marker_error() {
+        let (actor, mut take, _) = take();
+        let whole = solve(&actor, &take);
+        assert_eq!(whole.bound_markers, Some(actor.markers().len()));
+        assert!(whole.mean_marker_error_cm(0).is_some() && whole.mean_marker_error_cm(1).is_some());
+        assert_eq!(whole.mean_marker_error_cm(7), None);
+        // After its neutral face only the first marker is seen.
+        let neutral = MarkerSettings::default().neutral_frames;
+        for frame in take.frames.iter_mut().skip(neutral) {
+            frame.positions[1..].fill([f32::NAN; 3]);
+        }
+        let mut blind = solve(&actor, &take);
+        blind.samples.drain(..neutral);
+        assert_eq!(blind.mean_marker_error_cm(0), None);
+    }
+
+    #[test]
+    fn a_wrong_unit_and_a_mirrored_axis_come_with_a_sessions_advice() {
+        let (actor, take, _) = take();
+        let advice = |scale: [f32; 3]| {
+            let mut take = take.clone();
+            for position in take.frames.iter_mut().flat_map(|it| &mut it.positions) {
+                *position = std::array::from_fn(|axis| position[axis] * scale[axis]);
+            }
+            let solved = solve_take(&take, &actor, MarkerSettings::default(), || ());
+            solved.unwrap_err().advice()
+        };
+        assert_eq!(advice([0.1; 3]), advice_on("UNITS_SUSPECT"));
+        assert_eq!(advice([-1.0, 1.0, 1.0]), advice_on("MIRRORED"));
+        assert!(advice_on("MIRRORED").is_some() && advice_on("UNITS_SUSPECT").is_some());
     }
 
     #[test]

@@ -19,6 +19,7 @@ use tokio::time::{Instant, sleep_until};
 use super::{
     Context,
     interrupt::Interrupt,
+    marker_check::MarkerCheck,
     names::{default_publisher, session_name},
     publish_summary,
 };
@@ -72,12 +73,18 @@ pub async fn run(context: &Context, args: PublishArgs) -> anyhow::Result<ExitCod
         },
         takeover: args.takeover,
     };
-    let client = CaptureClient::start(context.connect().await?, settings)
+    let channel = context.connect().await?;
+    let client = CaptureClient::start(channel.clone(), settings)
         .await
         .with_context(|| format!("the session {} was not opened for publishing", args.session))?;
     let begun = Instant::now();
     send(&client, &take, &args).await?;
     let published = client.finish().await;
+    let session = session_name(&args.session);
+    // The frames went out: not to know which markers fit is no failure of theirs.
+    if let Ok(check) = MarkerCheck::of_session(channel, &session, &take.marker_names).await {
+        check.warn();
+    }
     publish_summary::print(
         context,
         &args.session,

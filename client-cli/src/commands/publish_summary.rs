@@ -2,7 +2,10 @@
 
 use std::{process::ExitCode, time::Duration};
 
-use frontalis_client::capture_client::{Published, report::PublishReport};
+use frontalis_client::{
+    capture_client::{Published, report::PublishReport},
+    error::advice_on,
+};
 
 use super::Context;
 use crate::{json, terminal::say};
@@ -58,6 +61,7 @@ fn lines(session: &str, report: &PublishReport, elapsed: Duration, what: &str) -
             "  rejected {reason}: {} frames, the first {}: {}",
             it.frames, it.first_frame, it.first_detail
         ));
+        lines.extend(advice_on(reason).map(|it| format!("    what to do: {it}")));
     }
     if report.reconnections > 0 {
         lines.push(format!(

@@ -16,12 +16,13 @@ use frontalis_analysis::{
 };
 use frontalis_client::{
     csv::{CsvRow, CsvWriter},
+    error::advice_on,
     solve::{Solved, solve_take},
     take_file,
 };
 use serde_json::json;
 
-use super::{Context, actor, settings::AnalysisArgs};
+use super::{Context, actor, marker_check::MarkerCheck, settings::AnalysisArgs};
 use crate::terminal::{progress, say};
 
 /// Solve a TRC file without a server, as a session would
@@ -73,6 +74,8 @@ pub fn run(context: &Context, args: &SolveArgs) -> anyhow::Result<ExitCode> {
         .with_context(|| format!("cannot solve {}", args.take.display()))?;
     bar.finish_and_clear();
     report_left_out(&solved);
+    let of_actor: Vec<_> = actor.markers().iter().map(|it| it.name.clone()).collect();
+    MarkerCheck::new(&take.marker_names, &of_actor, solved.bound_markers).warn();
     if solved.samples.is_empty() {
         bail!("{} gave no sample", args.take.display());
     }
@@ -87,12 +90,6 @@ pub fn run(context: &Context, args: &SolveArgs) -> anyhow::Result<ExitCode> {
 }
 
 fn report_left_out(solved: &Solved) {
-    if !solved.unknown_markers.is_empty() {
-        eprintln!(
-            "markers that the actor does not have, left out: {}",
-            solved.unknown_markers.join(", ")
-        );
-    }
     if solved.unaligned_frames > 0 {
         eprintln!(
             "the take ended before its neutral face was known: {} frames gave no sample (--neutral-frames asks for fewer)",
@@ -101,6 +98,9 @@ fn report_left_out(solved: &Solved) {
     }
     for (reason, frames) in &solved.rejected {
         eprintln!("{frames} frames were not used: {reason}");
+        if let Some(advice) = advice_on(reason) {
+            eprintln!("  what to do: {advice}");
+        }
     }
 }
 
@@ -148,21 +148,17 @@ fn summary(solved: &Solved, n_frames: usize) -> String {
             .filter(|it| it.quality == quality)
             .count()
     };
-    let mean_error_mm = |region: usize| {
-        let errors: Vec<_> = solved
-            .samples
-            .iter()
-            .map(|it| it.regions[region].marker_error_cm * 10.0)
-            .collect();
-        errors.iter().sum::<f64>() / (errors.len().max(1) as f64)
+    let mean_error = |region: usize| {
+        let error_cm = solved.mean_marker_error_cm(region);
+        error_cm.map_or("-".to_owned(), |it| format!("{:.3} mm", it * 10.0))
     };
     format!(
-        "{n_frames} frames, {} samples: {} solved, {} partial, {} held; mean marker error upper {:.3} mm, lower {:.3} mm (--csv prints the curves)",
+        "{n_frames} frames, {} samples: {} solved, {} partial, {} held; mean marker error upper {}, lower {} (--csv prints the curves)",
         solved.samples.len(),
         count(Quality::Solved),
         count(Quality::Partial),
         count(Quality::Held),
-        mean_error_mm(0),
-        mean_error_mm(1),
+        mean_error(0),
+        mean_error(1),
     )
 }
