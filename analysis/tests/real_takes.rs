@@ -151,6 +151,5 @@ fn a_glb_package_gives_the_curves_of_the_zip() {
         .flat_map(|(a, b)| a.activations.iter().zip(&b.activations))
         .fold(0.0, |largest: f64, (a, b)| largest.max((a - b).abs()));
     println!("curves of the GLB route differ from those of the ZIP by at most {largest:.1e}");
-    // A GLB holds f32 meters: 1e-8 m is the last bit of a face's coordinates.
-    assert!(largest <= 1e-5, "{largest:e}");
+    assert_eq!(largest.to_bits(), 0, "{largest:e}");
 }

@@ -2,7 +2,8 @@
 //!
 //! Two containers hold the same content. A ZIP has `actor.json` and OBJ files in the package's unit; a GLB has one mesh
 //! in meters with morph targets, and the same object in `mesh.extras.frontalis`.
-//! What was read and is written reads back: from a ZIP to the same bits, from a GLB to within `f32` meters.
+//! Lengths are rounded to what a GLB holds, `f32` meters (less than a hundredth of a micrometer on a face), whichever way they
+//! came: so both containers of one actor give the same bits, and what was read and is written reads back the same.
 
 mod archive;
 mod error;
@@ -13,7 +14,7 @@ mod manifest;
 pub use error::PackageError;
 
 use crate::{
-    face::actor::{Actor, ActorWarning, RankPolicy},
+    face::actor::{Actor, ActorParts, ActorWarning, RankPolicy},
     format::glb,
     space::LengthUnit,
 };
@@ -49,12 +50,23 @@ pub fn read(bytes: &[u8], rank: RankPolicy) -> Result<ReadActor, PackageError> {
         _ if archive::is_compressed(bytes) => return Err(PackageError::Compressed),
         _ => return Err(PackageError::UnknownContainer),
     };
-    let (actor, warnings) = Actor::new(parts, rank)?;
+    let (actor, warnings) = Actor::new(rounded(parts), rank)?;
     Ok(ReadActor {
         actor,
         warnings,
         unit,
     })
+}
+
+/// The parts with every length as a GLB holds it.
+fn rounded(mut parts: ActorParts) -> ActorParts {
+    for vertex in &mut parts.mesh.vertices {
+        vertex.0.coords = in_glb::rounded(&vertex.0.coords);
+    }
+    for displacement in parts.basis.displacements_cm.iter_mut().flatten() {
+        *displacement = in_glb::rounded(displacement);
+    }
+    parts
 }
 
 /// Writes an actor as a ZIP of `actor.json` and OBJ files, in centimeters; the same actor gives the same bytes.

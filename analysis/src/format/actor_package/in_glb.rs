@@ -88,6 +88,11 @@ fn in_cm(vertex: [f32; 3]) -> Vector3<f64> {
     Vector3::from(vertex.map(f64::from)) * UNIT.centimeters()
 }
 
+/// A length or a displacement as it reads back from a GLB, centimeters.
+pub(super) fn rounded(vector_cm: &Vector3<f64>) -> Vector3<f64> {
+    in_cm(in_meters(vector_cm))
+}
+
 pub(super) fn write(actor: &Actor) -> Vec<u8> {
     let muscles = actor.muscle_set().muscles();
     let manifest = GlbManifest {

@@ -93,14 +93,13 @@ fn a_package_is_read_with_its_markers_bound() {
     assert_eq!(actor.display_name(), "Actor A");
     assert_eq!(actor.muscle_set().id(), "two");
     assert_eq!(actor.mesh().triangles, [[0, 1, 2], [0, 2, 3]]);
-    assert_eq!(
-        actor.basis().displacements_cm[0][2].as_slice(),
-        [0.0, 0.0, 2.0]
-    );
+    // Lengths are those of f32 meters, a relative 6e-8 at most from what the package states.
+    let moved = actor.basis().displacements_cm[0][2];
+    assert!((moved - nalgebra::Vector3::new(0.0, 0.0, 2.0)).norm() < 2e-7);
     let at = |marker: usize| actor.virtual_markers()[marker].position(actor.mesh());
     assert!((at(0).0 - ModelPoint::new(8.0, 8.0, 0.0).0).norm() < 1e-12);
     assert_eq!(at(1), actor.mesh().vertices[3]);
-    assert!((at(2).0 - ModelPoint::new(2.25, 6.75, 0.0).0).norm() < 1e-12);
+    assert!((at(2).0 - ModelPoint::new(2.25, 6.75, 0.0).0).norm() < 1e-6);
     assert_eq!(at(3), actor.mesh().vertices[2]);
     assert!(actor.markers()[3].head_fixed && !actor.markers()[0].head_fixed);
 }
@@ -134,8 +133,8 @@ fn a_zip_that_was_written_reads_back_to_the_same_bits() {
     let computed = sheet_actor();
     let from_package = accepted(&write_zip(&computed)).actor;
     assert_same_layout(&from_package, &computed);
-    // A shape is stored as a position, so a computed displacement is rounded once, to the last bit of a position.
-    assert!(difference_cm(&from_package, &computed) < 1e-14);
+    // Reading rounds once, to f32 meters.
+    assert!(difference_cm(&from_package, &computed) < 1e-6);
     let bytes = write_zip(&from_package);
     assert_eq!(accepted(&bytes).actor, from_package);
     assert_eq!(write_zip(&accepted(&bytes).actor), bytes);
