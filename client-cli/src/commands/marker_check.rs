@@ -63,21 +63,21 @@ impl MarkerCheck {
         let mut lines = Vec::new();
         if !self.unknown.is_empty() {
             lines.push(format!(
-                "{} markers that the actor does not have, not solved: {}",
+                "markers that the actor does not have, not solved ({}): {}",
                 self.unknown.len(),
                 self.unknown.join(", ")
             ));
         }
         if !self.missing.is_empty() {
             lines.push(format!(
-                "{} markers of the actor that the capture does not have: {}",
+                "markers of the actor that the capture does not have ({}): {}",
                 self.missing.len(),
                 self.missing.join(", ")
             ));
         }
         if let Some(unbound @ 1..) = self.unbound {
             lines.push(format!(
-                "{unbound} markers of the actor were not seen in the neutral frames and are not used"
+                "markers of the actor that the neutral frames did not show, not used: {unbound}"
             ));
         }
         lines
@@ -110,7 +110,7 @@ mod tests {
         assert_eq!(check.missing, ["lip", "nose"]);
         assert_eq!(check.unbound, Some(1));
         let warnings = check.warnings().join("\n");
-        for part in ["ear", "lip, nose", "1 markers of the actor were not seen"] {
+        for part in ["(1): ear", "(2): lip, nose", "not used: 1"] {
             assert!(warnings.contains(part), "{warnings}");
         }
     }
