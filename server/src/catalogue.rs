@@ -42,6 +42,22 @@ pub enum CatalogueError {
     /// A call to the file system failed.
     #[error("the data directory could not be used")]
     Storage(#[from] io::Error),
+    /// The data directory cannot be used at the start.
+    #[error("the data directory {} could not be used", dir.display())]
+    Directory {
+        /// The data directory.
+        dir: PathBuf,
+        /// What the system says.
+        source: io::Error,
+    },
+    /// The database cannot be opened: it is damaged, or none.
+    #[error("the database {} could not be opened", file.display())]
+    Damaged {
+        /// The database.
+        file: PathBuf,
+        /// What the database says.
+        source: rusqlite::Error,
+    },
     /// Written by a newer server; left untouched.
     #[error("the catalogue has version {found}, this server knows versions up to {known}")]
     NewerVersion {
@@ -89,6 +105,23 @@ pub enum CatalogueError {
     },
 }
 
+impl CatalogueError {
+    /// Names the path, for the operator who has to look there.
+    fn at(self, dir: &Path) -> Self {
+        match self {
+            Self::Storage(source) => Self::Directory {
+                dir: dir.to_owned(),
+                source,
+            },
+            Self::Database(source) => Self::Damaged {
+                file: dir.join(DATABASE),
+                source,
+            },
+            named => named,
+        }
+    }
+}
+
 /// Actors and sessions of one data directory.
 ///
 /// One process at a time uses a directory; a lock file sees to that, and the system releases it with the process.
@@ -106,8 +139,12 @@ impl Catalogue {
     ///
     /// # Errors
     ///
-    /// [`CatalogueError::InUse`], [`CatalogueError::NewerVersion`], or that the disk or the database failed.
+    /// [`CatalogueError::InUse`], [`CatalogueError::NewerVersion`], or that the disk or the database failed, with its path.
     pub fn open(dir: &Path) -> Result<Self, CatalogueError> {
+        Self::open_in(dir).map_err(|error| error.at(dir))
+    }
+
+    fn open_in(dir: &Path) -> Result<Self, CatalogueError> {
         StdFs.create_dir_all(dir)?;
         let lock = lock::DirectoryLock::take(dir)?;
         let connection = Connection::open(dir.join(DATABASE))?;
@@ -177,6 +214,19 @@ mod tests {
             refused,
             Err(CatalogueError::NewerVersion { found: 99, .. })
         ));
+    }
+
+    #[test]
+    fn a_damaged_database_and_an_unusable_directory_are_named_by_their_path() {
+        let dir = tempfile::tempdir().unwrap();
+        let file = dir.path().join(DATABASE);
+        std::fs::write(&file, vec![b'x'; 8_192]).unwrap();
+        let damaged = Catalogue::open(dir.path()).unwrap_err();
+        assert!(matches!(damaged, CatalogueError::Damaged { .. }));
+        assert!(damaged.to_string().contains(file.to_str().unwrap()));
+        let unusable = Catalogue::open(&file).unwrap_err();
+        assert!(matches!(unusable, CatalogueError::Directory { .. }));
+        assert!(unusable.to_string().contains(file.to_str().unwrap()));
     }
 
     #[test]

@@ -6,7 +6,7 @@ use anyhow::Context as _;
 use clap::Parser as _;
 use frontalis_server::{
     config::{
-        Config,
+        Config, MemoryItem,
         layers::{Flags, load},
         worst_case,
     },
@@ -78,13 +78,19 @@ fn say(config: &Config) {
     for line in config.to_toml().lines().filter(|it| !it.is_empty()) {
         tracing::info!("config: {line}");
     }
-    for item in worst_case(config) {
+    let items = worst_case(config);
+    for item in &items {
         tracing::info!(
             what = item.what,
             mib = item.bytes >> 20,
             "worst-case memory"
         );
     }
+    tracing::info!(
+        mib = sum_mib(&items),
+        budget_mib = config.memory_budget_mib,
+        "worst-case memory in all"
+    );
     if config.is_exposed() {
         tracing::warn!("INSECURE: others can reach this port, without TLS and authentication");
     }
@@ -96,10 +102,13 @@ fn print_memory(config: &Config) {
     for item in &items {
         println!("# {:>8} MiB  {}", item.bytes >> 20, item.what);
     }
-    let sum: u64 = items.iter().map(|it| it.bytes).sum();
     println!(
         "# {:>8} MiB  of a budget of {} MiB",
-        sum >> 20,
+        sum_mib(&items),
         config.memory_budget_mib
     );
+}
+
+fn sum_mib(items: &[MemoryItem]) -> u64 {
+    items.iter().map(|it| it.bytes).sum::<u64>() >> 20
 }

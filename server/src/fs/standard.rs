@@ -2,7 +2,7 @@
 
 use std::{
     ffi::OsString,
-    fs::{self, File, OpenOptions},
+    fs::{self, DirBuilder, File, OpenOptions},
     io::{self, Write as _},
     path::Path,
 };
@@ -15,7 +15,7 @@ pub struct StdFs;
 
 impl Fs for StdFs {
     fn create_dir_all(&self, dir: &Path) -> io::Result<()> {
-        fs::create_dir_all(dir)?;
+        private_directories().create(dir)?;
         refuse_link(dir)
     }
 
@@ -56,6 +56,15 @@ impl Fs for StdFs {
     }
 }
 
+/// Faces are personal data: what the server makes is its own account's alone. A directory that exists stays as it is.
+fn private_directories() -> DirBuilder {
+    let mut builder = DirBuilder::new();
+    builder.recursive(true);
+    #[cfg(unix)]
+    std::os::unix::fs::DirBuilderExt::mode(&mut builder, 0o700);
+    builder
+}
+
 /// A link planted in the data directory must not lead out of it (CONTRACTS S-6).
 fn refuse_link(path: &Path) -> io::Result<()> {
     if fs::symlink_metadata(path)?.is_symlink() {
@@ -78,6 +87,19 @@ mod tests {
         write_durably(&StdFs, dir.path(), "a", b"second").unwrap();
         assert_eq!(StdFs.read(&dir.path().join("a")).unwrap(), b"second");
         assert_eq!(StdFs.list(dir.path()).unwrap(), ["a"]);
+    }
+
+    #[test]
+    fn a_new_directory_is_the_servers_alone_and_an_old_one_stays_as_it_is() {
+        use std::os::unix::fs::PermissionsExt as _;
+        let dir = tempfile::tempdir().unwrap();
+        let mode = |path: &Path| fs::metadata(path).unwrap().permissions().mode() & 0o777;
+        let new = dir.path().join("new");
+        StdFs.create_dir_all(&new).unwrap();
+        assert_eq!(mode(&new), 0o700);
+        fs::set_permissions(&new, fs::Permissions::from_mode(0o750)).unwrap();
+        StdFs.create_dir_all(&new).unwrap();
+        assert_eq!(mode(&new), 0o750);
     }
 
     #[test]

@@ -223,6 +223,11 @@ impl Worker {
             return;
         };
         self.shared.figures().aligned(alignment);
+        tracing::info!(
+            n_markers = alignment.n_markers(),
+            actor_revision = self.actor_revision,
+            "aligned"
+        );
         let event = SessionEvent::Aligned {
             id: self.shared.id.clone(),
             run: self.shared.run,
@@ -235,7 +240,9 @@ impl Worker {
 
     fn not_aligned(&mut self, error: AlignmentError) {
         self.enter(SessionState::Waiting);
-        self.shared.figures().alignment_problem = Some(alignment_problem(&error));
+        let reason = alignment_problem(&error);
+        tracing::info!(reason, "not aligned");
+        self.shared.figures().alignment_problem = Some(reason);
         if let Some(mailbox) = &self.mailbox {
             let mut intake = self.shared.intake();
             intake.give_up(mailbox, PublishEnd::NotAligned(error));

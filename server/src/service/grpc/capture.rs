@@ -73,6 +73,7 @@ impl CaptureGrpc {
         let session = in_process(&self.registry, &self.store, &start.session).await?;
         session.check_claim(&start.publisher, start.takeover)?;
         let epoch = self.store.next_epoch(&start.session).await?;
+        let (publisher, takeover) = (start.publisher.clone(), start.takeover);
         let publication = session.grant(Grant {
             publisher: start.publisher,
             takeover: start.takeover,
@@ -82,6 +83,8 @@ impl CaptureGrpc {
             ingest: start.ingest,
             rate_hz: start.rate_hz,
         })?;
+        let n_markers = publication.granted().shape.marker_names.len();
+        tracing::info!(session = %session.id(), %publisher, takeover, epoch, n_markers, "publisher granted");
         Ok(publication)
     }
 }

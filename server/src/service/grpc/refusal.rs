@@ -54,6 +54,8 @@ impl From<CatalogueError> for Status {
             }
             CatalogueError::Database(_)
             | CatalogueError::Storage(_)
+            | CatalogueError::Directory { .. }
+            | CatalogueError::Damaged { .. }
             | CatalogueError::NewerVersion { .. }
             | CatalogueError::InUse { .. }
             | CatalogueError::Unreadable { .. } => {
