@@ -150,9 +150,9 @@ impl Subscription {
         };
         let seat = hub.quota().take().ok_or(server_full)?;
         let (reading, n_states_heard) = {
-            let shared = hub.shared();
+            let mut shared = hub.shared();
             (
-                Reading::start(&shared, spec.delivery)?,
+                Reading::start(&mut shared, spec.delivery)?,
                 shared.n_transitions(),
             )
         };
@@ -245,7 +245,7 @@ impl Subscription {
         let hub = Arc::clone(&self.hub);
         let mut shared = hub.shared();
         let mut update = Update::default();
-        if let Err(lost) = self.take_samples(&shared, now, &mut update) {
+        if let Err(lost) = self.take_samples(&mut shared, now, &mut update) {
             return Some(Delivered::Lagged(lost));
         }
         // One that is still catching up would tell how far it was behind, not how long a sample takes.
@@ -272,13 +272,14 @@ impl Subscription {
 
     fn take_samples(
         &mut self,
-        shared: &Shared,
+        shared: &mut Shared,
         now: Instant,
         update: &mut Update,
     ) -> Result<(), LostRange> {
         match &mut self.reading {
             Reading::Every(cursor) => {
                 shared.read_batch(cursor, BATCH_ENTRIES, &mut update.samples, &mut update.gaps)?;
+                shared.window.reader_at(cursor);
                 let served_through = cursor.sequence - 1;
                 self.tally
                     .served_through
@@ -320,12 +321,16 @@ impl Subscription {
 }
 
 impl Reading {
-    fn start(shared: &Shared, delivery: Delivery) -> Result<Self, RangeError> {
+    fn start(shared: &mut Shared, delivery: Delivery) -> Result<Self, RangeError> {
         match delivery {
-            Delivery::EveryFrame(StartAt::Now) => Ok(Self::Every(shared.window.newest())),
-            Delivery::EveryFrame(StartAt::Oldest) => Ok(Self::Every(shared.window.oldest())),
-            Delivery::EveryFrame(StartAt::Sequence(sequence)) => {
-                shared.window.seek(sequence).map(Self::Every)
+            Delivery::EveryFrame(start) => {
+                let cursor = match start {
+                    StartAt::Now => shared.window.newest(),
+                    StartAt::Oldest => shared.window.oldest(),
+                    StartAt::Sequence(sequence) => shared.window.seek(sequence)?,
+                };
+                shared.window.reader_at(&cursor);
+                Ok(Self::Every(cursor))
             }
             Delivery::Latest {
                 credits,

@@ -2,6 +2,7 @@
 //!
 //! Keeps the larger of a span of time and a number of samples, within a limit of bytes; the oldest go first.
 //! Samples are numbered from 1 without holes; gaps stand between them, each before the sample that followed it.
+//! A gap that goes on is one entry until a reader has passed it (D-4); what was read is never changed.
 
 use std::{collections::VecDeque, sync::Arc};
 
@@ -102,6 +103,8 @@ pub(super) struct Window {
     entries: VecDeque<Kept>,
     /// Position of the oldest entry.
     base: u64,
+    /// Position before which some reader may have read.
+    read_through: u64,
     next_sequence: u64,
     n_samples: usize,
     bytes: usize,
@@ -114,6 +117,7 @@ impl Window {
         Self {
             entries: VecDeque::new(),
             base: 0,
+            read_through: 0,
             next_sequence: 1,
             n_samples: 0,
             bytes: 0,
@@ -144,7 +148,31 @@ impl Window {
     }
 
     pub(super) fn push_gap(&mut self, gap: Gap, now_nanos: i64) {
-        self.push(Entry::Gap(gap), self.next_sequence, 0, now_nanos);
+        if !self.extend_newest(gap, now_nanos) {
+            self.push(Entry::Gap(gap), self.next_sequence, 0, now_nanos);
+        }
+    }
+
+    /// Lets the newest entry go on with `gap`, when it is the same gap and no reader stands behind it.
+    fn extend_newest(&mut self, gap: Gap, now_nanos: i64) -> bool {
+        let end = self.base + self.entries.len() as u64;
+        let newest = self.entries.back_mut().filter(|_| self.read_through < end);
+        let Some(kept) = newest else {
+            return false;
+        };
+        match &mut kept.entry {
+            Entry::Gap(last) if last.is_continued_by(&gap) => {
+                last.last = gap.last;
+                kept.time_nanos = now_nanos;
+                true
+            }
+            _ => false,
+        }
+    }
+
+    /// Notes where a reader stands: what lies before its cursor stays as it is.
+    pub(super) fn reader_at(&mut self, cursor: &Cursor) {
+        self.read_through = self.read_through.max(cursor.position);
     }
 
     fn push(&mut self, entry: Entry, sequence: u64, content_bytes: usize, time_nanos: i64) {

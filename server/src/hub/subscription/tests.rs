@@ -186,7 +186,7 @@ async fn every_frame_resumes_with_the_gaps_just_before_its_sample() {
     let first = update(&mut again).await;
     assert_eq!(sequences(&first), [2, 3]);
     let gaps: Vec<_> = first.gaps.iter().map(|it| (it.first, it.last)).collect();
-    assert_eq!(gaps, [(2, 4), (5, 5), (8, 9)]);
+    assert_eq!(gaps, [(2, 5), (8, 9)]);
     let mut next = subscribe(&hub, Delivery::EveryFrame(StartAt::Sequence(4))).unwrap();
     let repeated = update(&mut next).await;
     assert!(repeated.samples.is_empty());
@@ -410,5 +410,81 @@ proptest! {
                 }
             }
         });
+    }
+}
+
+/// Reads all there is now: first and last frame of every sample and gap, in order of frames.
+fn drain(subscription: &mut Subscription) -> Vec<(u64, u64)> {
+    let mut heard = Vec::new();
+    while let Some(Delivered::Update(update)) = subscription.take_ready(Instant::now()) {
+        let samples = update.samples.iter().map(|it| it.sample.frame.0);
+        let mut batch: Vec<_> = samples.map(|it| (it, it)).collect();
+        batch.extend(update.gaps.iter().map(|it| (it.first, it.last)));
+        batch.sort_unstable();
+        heard.extend(batch);
+    }
+    heard
+}
+
+#[test]
+fn a_gap_that_goes_on_is_one_until_someone_has_read_it() {
+    let hub = hub();
+    let go_on = |frame: u64| hub.publish(&mut vec![gap(frame, frame)]);
+    publish(&hub, [1]);
+    (2..=50).for_each(go_on);
+    let mut early = subscribe(&hub, EVERY_FROM_OLDEST).unwrap();
+    assert_eq!(drain(&mut early), [(1, 1), (2, 50)]);
+    (51..=60).for_each(go_on);
+    // What was read stays as it is; what goes on after it is one again.
+    assert_eq!(drain(&mut early), [(51, 60)]);
+    let mut late = subscribe(&hub, EVERY_FROM_OLDEST).unwrap();
+    assert_eq!(drain(&mut late), [(1, 1), (2, 50), (51, 60)]);
+    let page = hub.page(None, Some(1), 100).unwrap();
+    assert_eq!(page.gaps.len(), 2);
+}
+
+#[test]
+fn a_reader_at_the_end_hears_how_the_gap_goes_on() {
+    let hub = hub();
+    hub.publish(&mut vec![gap(1, 3)]);
+    // Without a sample the newest position is behind the gap.
+    let mut now = subscribe(&hub, EVERY_FROM_NOW).unwrap();
+    hub.publish(&mut vec![gap(4, 6)]);
+    assert_eq!(drain(&mut now), [(4, 6)]);
+}
+
+proptest! {
+    #[test]
+    fn every_reader_hears_every_frame_once_whenever_it_reads(
+        actions in prop::collection::vec(0_u8..6, 1..120),
+        n_before_the_late_one in 0_usize..120,
+    ) {
+        let hub = hub_with(HubLimits { window_samples: 1_000, ..limits() });
+        let mut readers: Vec<_> = (0..2).map(|_| subscribe(&hub, EVERY_FROM_OLDEST).unwrap()).collect();
+        let mut heard = vec![Vec::new(); 3];
+        let mut n_frames = 0;
+        for (idx, action) in actions.into_iter().enumerate() {
+            if idx == n_before_the_late_one {
+                readers.push(subscribe(&hub, EVERY_FROM_OLDEST).unwrap());
+            }
+            match action {
+                0 => publish(&hub, [n_frames + 1]),
+                1 => hub.publish(&mut vec![gap(n_frames + 1, n_frames + 1)]),
+                2 => hub.publish(&mut vec![Outgoing::Gap(Gap::of_frame(n_frames + 1, GapCause::Shed))]),
+                reader => {
+                    let reader = usize::from(reader - 3);
+                    if let Some(subscription) = readers.get_mut(reader) {
+                        heard[reader].extend(drain(subscription));
+                    }
+                    continue;
+                }
+            }
+            n_frames += 1;
+        }
+        for (subscription, heard) in readers.iter_mut().zip(&mut heard) {
+            heard.extend(drain(subscription));
+            let frames: Vec<u64> = heard.iter().flat_map(|(first, last)| *first..=*last).collect();
+            prop_assert_eq!(frames, (1..=n_frames).collect::<Vec<_>>());
+        }
     }
 }
