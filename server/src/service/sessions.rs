@@ -263,11 +263,11 @@ impl Sessions {
         Ok(ids.len())
     }
 
-    /// As [`in_process`].
+    /// The session in this process; one that is only in the catalogue has ended.
     ///
     /// # Errors
     ///
-    /// As there.
+    /// `NOT_FOUND`, or `FAILED_PRECONDITION SESSION_ENDED`, as it goes over the wire.
     pub async fn handle(&self, id: &SessionId) -> Result<SessionHandle, Status> {
         in_process(&self.registry, &self.store, id).await
     }
@@ -324,11 +324,7 @@ impl Sessions {
     }
 }
 
-/// The session in this process; one that is only in the catalogue has ended.
-///
-/// # Errors
-///
-/// `NOT_FOUND`, or `FAILED_PRECONDITION SESSION_ENDED`, as it goes over the wire.
+/// What [`Sessions::handle`] does, for the services that hold registry and store themselves.
 pub(super) async fn in_process(
     registry: &SessionRegistry,
     store: &Store,
