@@ -5,20 +5,8 @@ use frontalis_proto::v1;
 use crate::{
     hub::{SessionState, SubscriberStatus},
     session::{AlignmentReport, ControlRange, SessionStatus, StageLatency},
-    wire::actor::finite,
+    wire::{actor::finite, common::session_state},
 };
-
-/// A state's number on the wire.
-fn state(state: SessionState) -> v1::SessionState {
-    match state {
-        SessionState::Waiting => v1::SessionState::Waiting,
-        SessionState::Aligning => v1::SessionState::Aligning,
-        SessionState::Live => v1::SessionState::Live,
-        SessionState::Stale => v1::SessionState::Stale,
-        SessionState::Ended => v1::SessionState::Ended,
-        SessionState::Failed => v1::SessionState::Failed,
-    }
-}
 
 /// A state in words, for metrics and JSON.
 pub fn state_name(state: SessionState) -> &'static str {
@@ -34,7 +22,7 @@ pub fn state_name(state: SessionState) -> &'static str {
 
 pub(super) fn status(status: &SessionStatus) -> v1::SessionStatus {
     v1::SessionStatus {
-        state: state(status.state).into(),
+        state: session_state(status.state).into(),
         failure: status.failure.clone().unwrap_or_default(),
         last_frame: status.last_frame,
         frame_rate_hz: finite(status.frame_rate_hz),
