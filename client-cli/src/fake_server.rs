@@ -252,4 +252,11 @@ impl CurveService for FakeServer {
     ) -> Result<Response<Self::FollowStream>, Status> {
         Err(Status::unimplemented("follow"))
     }
+
+    async fn read_curves(
+        &self,
+        _request: Request<crate::proto::ReadCurvesRequest>,
+    ) -> Result<Response<crate::proto::ReadCurvesResponse>, Status> {
+        Err(Status::unimplemented("not part of the fake"))
+    }
 }

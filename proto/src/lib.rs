@@ -1,8 +1,14 @@
 //! Wire types of `frontalis.v1`, and nothing else.
 //!
+//! Every message is also `serde`, in the protobuf JSON mapping: camel case, enums by name, 64-bit numbers as strings.
+//!
 //! The contracts of the streams are written in the `.proto` files under `frontalis/v1/`.
 //! The code under `src/generated/` is made from them and committed, so that building needs no protobuf compiler;
 //! `tests/generated_is_current.rs` fails when it is stale and says how to make it anew.
+
+mod field_mask;
+
+pub use field_mask::FieldMask;
 
 /// Version 1 of the protocol.
 #[expect(
@@ -15,6 +21,7 @@
 )]
 pub mod v1 {
     include!("generated/frontalis.v1.rs");
+    include!("generated/frontalis.v1.serde.rs");
 }
 
 /// The compiled `.proto` files as a `google.protobuf.FileDescriptorSet`, for server reflection.

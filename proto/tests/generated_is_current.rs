@@ -5,31 +5,50 @@ use std::path::Path;
 
 use prost::Message as _;
 
-const PROTO_FILES: [&str; 6] = [
+const PROTO_FILES: [&str; 7] = [
     "frontalis/v1/common.proto",
     "frontalis/v1/actor.proto",
     "frontalis/v1/session.proto",
     "frontalis/v1/capture.proto",
     "frontalis/v1/curve.proto",
     "frontalis/v1/take.proto",
+    "frontalis/v1/server.proto",
 ];
+
+/// Types of Google's that have a JSON form of their own, and where they are.
+const WELL_KNOWN: (&str, &str) = (".google.protobuf", "::pbjson_types");
+
+/// The one of them that `pbjson_types` lacks.
+const FIELD_MASK: (&str, &str) = (".google.protobuf.FieldMask", "crate::FieldMask");
 
 #[test]
 fn generated_code_is_current() {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
     let fresh = tempfile::tempdir().unwrap();
     let descriptors = protox::compile(PROTO_FILES, [root]).unwrap();
-    std::fs::write(
-        fresh.path().join("frontalis.v1.bin"),
-        descriptors.encode_to_vec(),
-    )
-    .unwrap();
+    let binary = descriptors.encode_to_vec();
+    pbjson_build::Builder::new()
+        .register_descriptors(&binary)
+        .unwrap()
+        .extern_path(WELL_KNOWN.0, WELL_KNOWN.1)
+        .extern_path(FIELD_MASK.0, FIELD_MASK.1)
+        .out_dir(fresh.path())
+        .build(&[".frontalis.v1"])
+        .unwrap();
+    std::fs::write(fresh.path().join("frontalis.v1.bin"), binary).unwrap();
     tonic_prost_build::configure()
         .emit_rerun_if_changed(false)
+        .compile_well_known_types(true)
+        .extern_path(WELL_KNOWN.0, WELL_KNOWN.1)
+        .extern_path(FIELD_MASK.0, FIELD_MASK.1)
         .out_dir(fresh.path())
         .compile_fds(descriptors)
         .unwrap();
-    for name in ["frontalis.v1.rs", "frontalis.v1.bin"] {
+    for name in [
+        "frontalis.v1.rs",
+        "frontalis.v1.serde.rs",
+        "frontalis.v1.bin",
+    ] {
         check(
             &fresh.path().join(name),
             &root.join("src/generated").join(name),

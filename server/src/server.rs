@@ -16,7 +16,11 @@ use crate::{
         calls::Calls,
         door::{self, ReflectionError, Services},
         grpc::{
-            actors::ActorsGrpc, capture::CaptureGrpc, curves::CurvesGrpc, sessions::SessionsGrpc,
+            actors::ActorsGrpc,
+            capture::CaptureGrpc,
+            curves::CurvesGrpc,
+            server::{Protection, ServerGrpc},
+            sessions::SessionsGrpc,
         },
         http::Doors,
         keeper::{self, EVENT_CAPACITY, Keeper},
@@ -125,16 +129,18 @@ pub async fn run(
         sessions: SessionsGrpc(sessions.clone()),
         capture: CaptureGrpc::new(registry.clone(), store.clone(), clock),
         curves: CurvesGrpc::new(registry.clone(), store.clone(), clock),
+        server: ServerGrpc::new(clock, protection(&config, address), phases.clone()),
         max_message_bytes: config.limits.message_bytes(),
         calls: Calls::new(&config.limits),
     };
     let doors = Doors {
         store: store.clone(),
         sessions: sessions.clone(),
+        services,
         metrics: metrics.clone(),
         phases: phases.clone(),
     };
-    let (router, health) = door::router(services, doors).await?;
+    let (router, health) = door::router(doors).await?;
 
     let drained = CancellationToken::new();
     let upkeep = TaskTracker::new();
@@ -230,6 +236,14 @@ impl Ending {
         self.phases.closing.cancel();
         self.connections.close();
         self.connections.wait().await;
+    }
+}
+
+fn protection(_config: &Config, address: SocketAddr) -> Protection {
+    Protection {
+        tls: false,
+        tokens: false,
+        insecure: !address.ip().is_loopback(),
     }
 }
 

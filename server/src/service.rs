@@ -1,9 +1,11 @@
 //! The doors of the server: gRPC and plain HTTP.
 
+pub mod access;
 pub mod calls;
 pub mod door;
 pub mod grpc;
 pub mod http;
 pub mod keeper;
 pub mod listener;
+pub mod peer;
 pub mod sessions;

@@ -14,19 +14,21 @@ use sources::SourceFile;
 
 /// Which crates of the workspace a crate may name.
 const CRATES: &[(&str, &[&str])] = &[
+    ("frontalis-access", &[]),
     ("frontalis-analysis", &[]),
     ("frontalis-proto", &[]),
     (
         "frontalis-server",
-        &["frontalis-analysis", "frontalis-proto"],
+        &["frontalis-access", "frontalis-analysis", "frontalis-proto"],
     ),
     (
         "frontalis-client",
-        &["frontalis-analysis", "frontalis-proto"],
+        &["frontalis-access", "frontalis-analysis", "frontalis-proto"],
     ),
     (
         "frontalis-tests",
         &[
+            "frontalis-access",
             "frontalis-analysis",
             "frontalis-client",
             "frontalis-proto",

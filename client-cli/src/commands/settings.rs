@@ -84,7 +84,7 @@ impl SettingsArgs {
             stale_after: self.stale_after_millis.map(millis),
             publisher_timeout: self
                 .publisher_timeout_secs
-                .map(|secs| prost_types::Duration {
+                .map(|secs| pbjson_types::Duration {
                     seconds: secs.into(),
                     nanos: 0,
                 }),
@@ -103,8 +103,8 @@ impl SettingsArgs {
     clippy::cast_possible_wrap,
     reason = "a remainder below 1,000, times 1,000,000, fits i32"
 )]
-fn millis(millis: u32) -> prost_types::Duration {
-    prost_types::Duration {
+fn millis(millis: u32) -> pbjson_types::Duration {
+    pbjson_types::Duration {
         seconds: i64::from(millis / 1_000),
         nanos: (millis % 1_000 * 1_000_000) as i32,
     }

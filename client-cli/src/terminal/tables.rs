@@ -271,7 +271,7 @@ fn yes(it: bool) -> String {
     if it { "yes" } else { "no" }.to_owned()
 }
 
-fn duration(duration: Option<prost_types::Duration>) -> String {
+fn duration(duration: Option<pbjson_types::Duration>) -> String {
     duration.map_or_else(
         || "automatic".to_owned(),
         |it| format!("{:.3}", seconds(it)),
@@ -279,12 +279,12 @@ fn duration(duration: Option<prost_types::Duration>) -> String {
 }
 
 /// Seconds of a wire duration.
-pub fn seconds(duration: prost_types::Duration) -> f64 {
+pub fn seconds(duration: pbjson_types::Duration) -> f64 {
     duration.seconds as f64 + f64::from(duration.nanos) * 1e-9
 }
 
 /// `2026-11-22T16:59:09Z`, or nothing.
-pub fn timestamp(time: Option<&prost_types::Timestamp>) -> String {
+pub fn timestamp(time: Option<&pbjson_types::Timestamp>) -> String {
     time.map(|it| {
         prost_types::Timestamp {
             seconds: it.seconds,

@@ -170,7 +170,7 @@ pub struct Actor {
     #[prost(uint32, tag = "3")]
     pub revision: u32,
     #[prost(message, optional, tag = "4")]
-    pub create_time: ::core::option::Option<::prost_types::Timestamp>,
+    pub create_time: ::core::option::Option<::pbjson_types::Timestamp>,
     #[prost(message, repeated, tag = "5")]
     pub muscles: ::prost::alloc::vec::Vec<Muscle>,
     #[prost(message, repeated, tag = "6")]
@@ -1208,10 +1208,10 @@ pub struct SessionSettings {
     pub stabilize_head: ::core::option::Option<bool>,
     /// default: three frame periods, at least 100 ms
     #[prost(message, optional, tag = "7")]
-    pub stale_after: ::core::option::Option<::prost_types::Duration>,
+    pub stale_after: ::core::option::Option<::pbjson_types::Duration>,
     /// default 10 s
     #[prost(message, optional, tag = "8")]
-    pub publisher_timeout: ::core::option::Option<::prost_types::Duration>,
+    pub publisher_timeout: ::core::option::Option<::pbjson_types::Duration>,
     /// start a take with the first frame; false
     #[prost(bool, optional, tag = "9")]
     pub record: ::core::option::Option<bool>,
@@ -1242,7 +1242,7 @@ pub struct Session {
     #[prost(message, optional, tag = "5")]
     pub settings: ::core::option::Option<SessionSettings>,
     #[prost(message, optional, tag = "6")]
-    pub create_time: ::core::option::Option<::prost_types::Timestamp>,
+    pub create_time: ::core::option::Option<::pbjson_types::Timestamp>,
     #[prost(message, optional, tag = "7")]
     pub status: ::core::option::Option<SessionStatus>,
 }
@@ -1416,7 +1416,7 @@ pub struct UpdateSessionRequest {
     pub actor_revision: u32,
     /// paths in `settings`; empty: the fields that are present
     #[prost(message, optional, tag = "4")]
-    pub update_mask: ::core::option::Option<::prost_types::FieldMask>,
+    pub update_mask: ::core::option::Option<crate::FieldMask>,
 }
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct UpdateSessionResponse {
@@ -2859,6 +2859,44 @@ pub mod capture_service_server {
         const NAME: &'static str = SERVICE_NAME;
     }
 }
+#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct ReadCurvesRequest {
+    /// "sessions/{id}"
+    #[prost(string, tag = "1")]
+    pub session: ::prost::alloc::string::String,
+    /// of `after`; 0: the current run
+    #[prost(uint64, tag = "2")]
+    pub run: u64,
+    /// the last sequence that the client has; absent: from the oldest that is kept
+    #[prost(uint64, optional, tag = "3")]
+    pub after: ::core::option::Option<u64>,
+    /// samples in the answer, at most 1,000; 0: 100
+    #[prost(uint32, tag = "4")]
+    pub limit: u32,
+    /// fill CurveSample.standard_errors
+    #[prost(bool, tag = "5")]
+    pub with_uncertainty: bool,
+    /// fill observed_cm and reproduced_cm
+    #[prost(bool, tag = "6")]
+    pub with_markers: bool,
+}
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct ReadCurvesResponse {
+    #[prost(message, optional, tag = "1")]
+    pub header: ::core::option::Option<CurveHeader>,
+    #[prost(message, repeated, tag = "2")]
+    pub samples: ::prost::alloc::vec::Vec<CurveSample>,
+    #[prost(message, repeated, tag = "3")]
+    pub gaps: ::prost::alloc::vec::Vec<Gap>,
+    /// `after` of the next request
+    #[prost(uint64, tag = "4")]
+    pub read_through: u64,
+    /// of the session, now
+    #[prost(uint64, tag = "5")]
+    pub newest_sequence: u64,
+    #[prost(message, optional, tag = "6")]
+    pub state: ::core::option::Option<StreamState>,
+}
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct SubscribeRequest {
     /// first message only
@@ -3428,6 +3466,31 @@ pub mod curve_service_client {
                 .insert(GrpcMethod::new("frontalis.v1.CurveService", "Follow"));
             self.inner.server_streaming(req, path, codec).await
         }
+        /// A piece of what the session still holds, for clients that poll.
+        pub async fn read_curves(
+            &mut self,
+            request: impl tonic::IntoRequest<super::ReadCurvesRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::ReadCurvesResponse>,
+            tonic::Status,
+        > {
+            self.inner
+                .ready()
+                .await
+                .map_err(|e| {
+                    tonic::Status::unknown(
+                        format!("Service was not ready: {}", e.into()),
+                    )
+                })?;
+            let codec = tonic_prost::ProstCodec::default();
+            let path = http::uri::PathAndQuery::from_static(
+                "/frontalis.v1.CurveService/ReadCurves",
+            );
+            let mut req = request.into_request();
+            req.extensions_mut()
+                .insert(GrpcMethod::new("frontalis.v1.CurveService", "ReadCurves"));
+            self.inner.unary(req, path, codec).await
+        }
     }
 }
 /// Generated server implementations.
@@ -3464,6 +3527,14 @@ pub mod curve_service_server {
             &self,
             request: tonic::Request<super::SubscribeStart>,
         ) -> std::result::Result<tonic::Response<Self::FollowStream>, tonic::Status>;
+        /// A piece of what the session still holds, for clients that poll.
+        async fn read_curves(
+            &self,
+            request: tonic::Request<super::ReadCurvesRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::ReadCurvesResponse>,
+            tonic::Status,
+        >;
     }
     /// The contract of the stream.
     ///
@@ -3652,6 +3723,51 @@ pub mod curve_service_server {
                     };
                     Box::pin(fut)
                 }
+                "/frontalis.v1.CurveService/ReadCurves" => {
+                    #[allow(non_camel_case_types)]
+                    struct ReadCurvesSvc<T: CurveService>(pub Arc<T>);
+                    impl<
+                        T: CurveService,
+                    > tonic::server::UnaryService<super::ReadCurvesRequest>
+                    for ReadCurvesSvc<T> {
+                        type Response = super::ReadCurvesResponse;
+                        type Future = BoxFuture<
+                            tonic::Response<Self::Response>,
+                            tonic::Status,
+                        >;
+                        fn call(
+                            &mut self,
+                            request: tonic::Request<super::ReadCurvesRequest>,
+                        ) -> Self::Future {
+                            let inner = Arc::clone(&self.0);
+                            let fut = async move {
+                                <T as CurveService>::read_curves(&inner, request).await
+                            };
+                            Box::pin(fut)
+                        }
+                    }
+                    let accept_compression_encodings = self.accept_compression_encodings;
+                    let send_compression_encodings = self.send_compression_encodings;
+                    let max_decoding_message_size = self.max_decoding_message_size;
+                    let max_encoding_message_size = self.max_encoding_message_size;
+                    let inner = self.inner.clone();
+                    let fut = async move {
+                        let method = ReadCurvesSvc(inner);
+                        let codec = tonic_prost::ProstCodec::default();
+                        let mut grpc = tonic::server::Grpc::new(codec)
+                            .apply_compression_config(
+                                accept_compression_encodings,
+                                send_compression_encodings,
+                            )
+                            .apply_max_message_size_config(
+                                max_decoding_message_size,
+                                max_encoding_message_size,
+                            );
+                        let res = grpc.unary(method, req).await;
+                        Ok(res)
+                    };
+                    Box::pin(fut)
+                }
                 _ => {
                     Box::pin(async move {
                         let mut response = http::Response::new(
@@ -3708,9 +3824,9 @@ pub struct Take {
     #[prost(uint32, tag = "6")]
     pub number: u32,
     #[prost(message, optional, tag = "7")]
-    pub start_time: ::core::option::Option<::prost_types::Timestamp>,
+    pub start_time: ::core::option::Option<::pbjson_types::Timestamp>,
     #[prost(message, optional, tag = "8")]
-    pub stop_time: ::core::option::Option<::prost_types::Timestamp>,
+    pub stop_time: ::core::option::Option<::pbjson_types::Timestamp>,
     #[prost(uint64, tag = "9")]
     pub first_frame: u64,
     #[prost(uint64, tag = "10")]
@@ -3753,7 +3869,7 @@ pub struct StartTakeRequest {
     pub with_images: bool,
     /// from what the session still holds
     #[prost(message, optional, tag = "6")]
-    pub pre_roll: ::core::option::Option<::prost_types::Duration>,
+    pub pre_roll: ::core::option::Option<::pbjson_types::Duration>,
 }
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct StartTakeResponse {
@@ -3799,7 +3915,7 @@ pub struct UpdateTakeRequest {
     #[prost(message, optional, tag = "1")]
     pub take: ::core::option::Option<Take>,
     #[prost(message, optional, tag = "2")]
-    pub update_mask: ::core::option::Option<::prost_types::FieldMask>,
+    pub update_mask: ::core::option::Option<crate::FieldMask>,
 }
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct UpdateTakeResponse {
@@ -4786,6 +4902,389 @@ pub mod take_service_server {
     /// Generated gRPC service name
     pub const SERVICE_NAME: &str = "frontalis.v1.TakeService";
     impl<T> tonic::server::NamedService for TakeServiceServer<T> {
+        const NAME: &'static str = SERVICE_NAME;
+    }
+}
+#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct Server {
+    #[prost(string, tag = "1")]
+    pub version: ::prost::alloc::string::String,
+    #[prost(message, optional, tag = "2")]
+    pub start_time: ::core::option::Option<::pbjson_types::Timestamp>,
+    /// this port speaks TLS
+    #[prost(bool, tag = "3")]
+    pub tls: bool,
+    /// callers prove who they are
+    #[prost(bool, tag = "4")]
+    pub tokens: bool,
+    /// other machines can reach this port, without TLS or without tokens
+    #[prost(bool, tag = "5")]
+    pub insecure: bool,
+    /// on its way out: nothing new is accepted
+    #[prost(bool, tag = "6")]
+    pub draining: bool,
+    #[prost(message, optional, tag = "7")]
+    pub caller: ::core::option::Option<Principal>,
+}
+/// Who calls, as the token or the certificate says.
+#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct Principal {
+    /// of the token, or the certificate's subject; "anyone" where no tokens are asked for
+    #[prost(string, tag = "1")]
+    pub name: ::prost::alloc::string::String,
+    #[prost(enumeration = "Role", tag = "2")]
+    pub role: i32,
+    /// ids, or prefixes that end with "*"; an operator has "*"
+    #[prost(string, repeated, tag = "3")]
+    pub sessions: ::prost::alloc::vec::Vec<::prost::alloc::string::String>,
+    /// absent: does not expire
+    #[prost(message, optional, tag = "4")]
+    pub expire_time: ::core::option::Option<::pbjson_types::Timestamp>,
+}
+#[derive(Clone, Copy, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct GetServerRequest {}
+#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct GetServerResponse {
+    #[prost(message, optional, tag = "1")]
+    pub server: ::core::option::Option<Server>,
+}
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
+#[repr(i32)]
+pub enum Role {
+    Unspecified = 0,
+    /// everything
+    Operator = 1,
+    /// its own sessions: create, publish, calibrate, subscribe, end
+    Publisher = 2,
+    /// the sessions granted to it: subscribe, read the actor
+    Renderer = 3,
+    /// the state of sessions
+    Viewer = 4,
+}
+impl Role {
+    /// String value of the enum field names used in the ProtoBuf definition.
+    ///
+    /// The values are not transformed in any way and thus are considered stable
+    /// (if the ProtoBuf definition does not change) and safe for programmatic use.
+    pub fn as_str_name(&self) -> &'static str {
+        match self {
+            Self::Unspecified => "ROLE_UNSPECIFIED",
+            Self::Operator => "ROLE_OPERATOR",
+            Self::Publisher => "ROLE_PUBLISHER",
+            Self::Renderer => "ROLE_RENDERER",
+            Self::Viewer => "ROLE_VIEWER",
+        }
+    }
+    /// Creates an enum from field names used in the ProtoBuf definition.
+    pub fn from_str_name(value: &str) -> ::core::option::Option<Self> {
+        match value {
+            "ROLE_UNSPECIFIED" => Some(Self::Unspecified),
+            "ROLE_OPERATOR" => Some(Self::Operator),
+            "ROLE_PUBLISHER" => Some(Self::Publisher),
+            "ROLE_RENDERER" => Some(Self::Renderer),
+            "ROLE_VIEWER" => Some(Self::Viewer),
+            _ => None,
+        }
+    }
+}
+/// Generated client implementations.
+pub mod server_service_client {
+    #![allow(
+        unused_variables,
+        dead_code,
+        missing_docs,
+        clippy::wildcard_imports,
+        clippy::let_unit_value,
+    )]
+    use tonic::codegen::*;
+    use tonic::codegen::http::Uri;
+    #[derive(Debug, Clone)]
+    pub struct ServerServiceClient<T> {
+        inner: tonic::client::Grpc<T>,
+    }
+    impl ServerServiceClient<tonic::transport::Channel> {
+        /// Attempt to create a new client by connecting to a given endpoint.
+        pub async fn connect<D>(dst: D) -> Result<Self, tonic::transport::Error>
+        where
+            D: TryInto<tonic::transport::Endpoint>,
+            D::Error: Into<StdError>,
+        {
+            let conn = tonic::transport::Endpoint::new(dst)?.connect().await?;
+            Ok(Self::new(conn))
+        }
+    }
+    impl<T> ServerServiceClient<T>
+    where
+        T: tonic::client::GrpcService<tonic::body::Body>,
+        T::Error: Into<StdError>,
+        T::ResponseBody: Body<Data = Bytes> + std::marker::Send + 'static,
+        <T::ResponseBody as Body>::Error: Into<StdError> + std::marker::Send,
+    {
+        pub fn new(inner: T) -> Self {
+            let inner = tonic::client::Grpc::new(inner);
+            Self { inner }
+        }
+        pub fn with_origin(inner: T, origin: Uri) -> Self {
+            let inner = tonic::client::Grpc::with_origin(inner, origin);
+            Self { inner }
+        }
+        pub fn with_interceptor<F>(
+            inner: T,
+            interceptor: F,
+        ) -> ServerServiceClient<InterceptedService<T, F>>
+        where
+            F: tonic::service::Interceptor,
+            T::ResponseBody: Default,
+            T: tonic::codegen::Service<
+                http::Request<tonic::body::Body>,
+                Response = http::Response<
+                    <T as tonic::client::GrpcService<tonic::body::Body>>::ResponseBody,
+                >,
+            >,
+            <T as tonic::codegen::Service<
+                http::Request<tonic::body::Body>,
+            >>::Error: Into<StdError> + std::marker::Send + std::marker::Sync,
+        {
+            ServerServiceClient::new(InterceptedService::new(inner, interceptor))
+        }
+        /// Compress requests with the given encoding.
+        ///
+        /// This requires the server to support it otherwise it might respond with an
+        /// error.
+        #[must_use]
+        pub fn send_compressed(mut self, encoding: CompressionEncoding) -> Self {
+            self.inner = self.inner.send_compressed(encoding);
+            self
+        }
+        /// Enable decompressing responses.
+        #[must_use]
+        pub fn accept_compressed(mut self, encoding: CompressionEncoding) -> Self {
+            self.inner = self.inner.accept_compressed(encoding);
+            self
+        }
+        /// Limits the maximum size of a decoded message.
+        ///
+        /// Default: `4MB`
+        #[must_use]
+        pub fn max_decoding_message_size(mut self, limit: usize) -> Self {
+            self.inner = self.inner.max_decoding_message_size(limit);
+            self
+        }
+        /// Limits the maximum size of an encoded message.
+        ///
+        /// Default: `usize::MAX`
+        #[must_use]
+        pub fn max_encoding_message_size(mut self, limit: usize) -> Self {
+            self.inner = self.inner.max_encoding_message_size(limit);
+            self
+        }
+        /// What this server is, and what the caller may do. Every token may ask.
+        pub async fn get_server(
+            &mut self,
+            request: impl tonic::IntoRequest<super::GetServerRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::GetServerResponse>,
+            tonic::Status,
+        > {
+            self.inner
+                .ready()
+                .await
+                .map_err(|e| {
+                    tonic::Status::unknown(
+                        format!("Service was not ready: {}", e.into()),
+                    )
+                })?;
+            let codec = tonic_prost::ProstCodec::default();
+            let path = http::uri::PathAndQuery::from_static(
+                "/frontalis.v1.ServerService/GetServer",
+            );
+            let mut req = request.into_request();
+            req.extensions_mut()
+                .insert(GrpcMethod::new("frontalis.v1.ServerService", "GetServer"));
+            self.inner.unary(req, path, codec).await
+        }
+    }
+}
+/// Generated server implementations.
+pub mod server_service_server {
+    #![allow(
+        unused_variables,
+        dead_code,
+        missing_docs,
+        clippy::wildcard_imports,
+        clippy::let_unit_value,
+    )]
+    use tonic::codegen::*;
+    /// Generated trait containing gRPC methods that should be implemented for use with ServerServiceServer.
+    #[async_trait]
+    pub trait ServerService: std::marker::Send + std::marker::Sync + 'static {
+        /// What this server is, and what the caller may do. Every token may ask.
+        async fn get_server(
+            &self,
+            request: tonic::Request<super::GetServerRequest>,
+        ) -> std::result::Result<
+            tonic::Response<super::GetServerResponse>,
+            tonic::Status,
+        >;
+    }
+    #[derive(Debug)]
+    pub struct ServerServiceServer<T> {
+        inner: Arc<T>,
+        accept_compression_encodings: EnabledCompressionEncodings,
+        send_compression_encodings: EnabledCompressionEncodings,
+        max_decoding_message_size: Option<usize>,
+        max_encoding_message_size: Option<usize>,
+    }
+    impl<T> ServerServiceServer<T> {
+        pub fn new(inner: T) -> Self {
+            Self::from_arc(Arc::new(inner))
+        }
+        pub fn from_arc(inner: Arc<T>) -> Self {
+            Self {
+                inner,
+                accept_compression_encodings: Default::default(),
+                send_compression_encodings: Default::default(),
+                max_decoding_message_size: None,
+                max_encoding_message_size: None,
+            }
+        }
+        pub fn with_interceptor<F>(
+            inner: T,
+            interceptor: F,
+        ) -> InterceptedService<Self, F>
+        where
+            F: tonic::service::Interceptor,
+        {
+            InterceptedService::new(Self::new(inner), interceptor)
+        }
+        /// Enable decompressing requests with the given encoding.
+        #[must_use]
+        pub fn accept_compressed(mut self, encoding: CompressionEncoding) -> Self {
+            self.accept_compression_encodings.enable(encoding);
+            self
+        }
+        /// Compress responses with the given encoding, if the client supports it.
+        #[must_use]
+        pub fn send_compressed(mut self, encoding: CompressionEncoding) -> Self {
+            self.send_compression_encodings.enable(encoding);
+            self
+        }
+        /// Limits the maximum size of a decoded message.
+        ///
+        /// Default: `4MB`
+        #[must_use]
+        pub fn max_decoding_message_size(mut self, limit: usize) -> Self {
+            self.max_decoding_message_size = Some(limit);
+            self
+        }
+        /// Limits the maximum size of an encoded message.
+        ///
+        /// Default: `usize::MAX`
+        #[must_use]
+        pub fn max_encoding_message_size(mut self, limit: usize) -> Self {
+            self.max_encoding_message_size = Some(limit);
+            self
+        }
+    }
+    impl<T, B> tonic::codegen::Service<http::Request<B>> for ServerServiceServer<T>
+    where
+        T: ServerService,
+        B: Body + std::marker::Send + 'static,
+        B::Error: Into<StdError> + std::marker::Send + 'static,
+    {
+        type Response = http::Response<tonic::body::Body>;
+        type Error = std::convert::Infallible;
+        type Future = BoxFuture<Self::Response, Self::Error>;
+        fn poll_ready(
+            &mut self,
+            _cx: &mut Context<'_>,
+        ) -> Poll<std::result::Result<(), Self::Error>> {
+            Poll::Ready(Ok(()))
+        }
+        fn call(&mut self, req: http::Request<B>) -> Self::Future {
+            match req.uri().path() {
+                "/frontalis.v1.ServerService/GetServer" => {
+                    #[allow(non_camel_case_types)]
+                    struct GetServerSvc<T: ServerService>(pub Arc<T>);
+                    impl<
+                        T: ServerService,
+                    > tonic::server::UnaryService<super::GetServerRequest>
+                    for GetServerSvc<T> {
+                        type Response = super::GetServerResponse;
+                        type Future = BoxFuture<
+                            tonic::Response<Self::Response>,
+                            tonic::Status,
+                        >;
+                        fn call(
+                            &mut self,
+                            request: tonic::Request<super::GetServerRequest>,
+                        ) -> Self::Future {
+                            let inner = Arc::clone(&self.0);
+                            let fut = async move {
+                                <T as ServerService>::get_server(&inner, request).await
+                            };
+                            Box::pin(fut)
+                        }
+                    }
+                    let accept_compression_encodings = self.accept_compression_encodings;
+                    let send_compression_encodings = self.send_compression_encodings;
+                    let max_decoding_message_size = self.max_decoding_message_size;
+                    let max_encoding_message_size = self.max_encoding_message_size;
+                    let inner = self.inner.clone();
+                    let fut = async move {
+                        let method = GetServerSvc(inner);
+                        let codec = tonic_prost::ProstCodec::default();
+                        let mut grpc = tonic::server::Grpc::new(codec)
+                            .apply_compression_config(
+                                accept_compression_encodings,
+                                send_compression_encodings,
+                            )
+                            .apply_max_message_size_config(
+                                max_decoding_message_size,
+                                max_encoding_message_size,
+                            );
+                        let res = grpc.unary(method, req).await;
+                        Ok(res)
+                    };
+                    Box::pin(fut)
+                }
+                _ => {
+                    Box::pin(async move {
+                        let mut response = http::Response::new(
+                            tonic::body::Body::default(),
+                        );
+                        let headers = response.headers_mut();
+                        headers
+                            .insert(
+                                tonic::Status::GRPC_STATUS,
+                                (tonic::Code::Unimplemented as i32).into(),
+                            );
+                        headers
+                            .insert(
+                                http::header::CONTENT_TYPE,
+                                tonic::metadata::GRPC_CONTENT_TYPE,
+                            );
+                        Ok(response)
+                    })
+                }
+            }
+        }
+    }
+    impl<T> Clone for ServerServiceServer<T> {
+        fn clone(&self) -> Self {
+            let inner = self.inner.clone();
+            Self {
+                inner,
+                accept_compression_encodings: self.accept_compression_encodings,
+                send_compression_encodings: self.send_compression_encodings,
+                max_decoding_message_size: self.max_decoding_message_size,
+                max_encoding_message_size: self.max_encoding_message_size,
+            }
+        }
+    }
+    /// Generated gRPC service name
+    pub const SERVICE_NAME: &str = "frontalis.v1.ServerService";
+    impl<T> tonic::server::NamedService for ServerServiceServer<T> {
         const NAME: &'static str = SERVICE_NAME;
     }
 }

@@ -71,6 +71,8 @@ pub struct Page {
     pub read_through: u64,
     /// The newest sequence; 0 before the first.
     pub newest_sequence: u64,
+    /// Of the session.
+    pub state: StreamState,
 }
 
 /// Fan-out of one session's run. Owned by the session, written by its worker, read by its subscribers.
@@ -241,6 +243,7 @@ impl CurveHub {
             gaps: Vec::new(),
             read_through: cursor.sequence - 1,
             newest_sequence: shared.window.newest_sequence(),
+            state: self.stream_state(shared.state),
         };
         let Page { samples, gaps, .. } = &mut page;
         // The cursor was made under this lock, so nothing is lost between.

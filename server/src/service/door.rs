@@ -5,8 +5,8 @@ use frontalis_proto::{
     FILE_DESCRIPTOR_SET,
     v1::{
         actor_service_server::ActorServiceServer, capture_service_server::CaptureServiceServer,
-        curve_service_server::CurveServiceServer, session_service_server::SessionServiceServer,
-        take_service_server::TakeServiceServer,
+        curve_service_server::CurveServiceServer, server_service_server::ServerServiceServer,
+        session_service_server::SessionServiceServer, take_service_server::TakeServiceServer,
     },
 };
 use tonic::service::Routes;
@@ -19,6 +19,7 @@ use super::{
         actors::{ActorsGrpc, MAX_CHUNK_BYTES},
         capture::CaptureGrpc,
         curves::CurvesGrpc,
+        server::ServerGrpc,
         sessions::SessionsGrpc,
         takes::TakesGrpc,
     },
@@ -36,7 +37,8 @@ const HEALTH: [(&str, bool); 3] = [
     ("frontalis.v1.TakeService", false),
 ];
 
-/// The services behind the port.
+/// The services behind the port; each door opens these and no others.
+#[derive(Clone)]
 pub struct Services {
     /// Packages.
     pub actors: ActorsGrpc,
@@ -46,6 +48,8 @@ pub struct Services {
     pub capture: CaptureGrpc,
     /// Curves out.
     pub curves: CurvesGrpc,
+    /// The server itself.
+    pub server: ServerGrpc,
     /// Largest message of a publisher, bytes.
     pub max_message_bytes: usize,
     /// How many calls may be in progress.
@@ -62,10 +66,8 @@ pub struct ReflectionError(#[from] tonic_reflection::server::Error);
 /// # Errors
 ///
 /// When the descriptors in the binary are broken.
-pub async fn router(
-    services: Services,
-    doors: Doors,
-) -> Result<(Router, HealthReporter), ReflectionError> {
+pub async fn router(doors: Doors) -> Result<(Router, HealthReporter), ReflectionError> {
+    let services = doors.services.clone();
     let metrics = doors.metrics.clone();
     let (reporter, health) = tonic_health::server::health_reporter();
     report(&reporter, true).await;
@@ -83,11 +85,14 @@ pub async fn router(
     let curves =
         CurveServiceServer::new(services.curves).max_decoding_message_size(SMALL_MESSAGE_BYTES);
     let takes = TakeServiceServer::new(TakesGrpc).max_decoding_message_size(SMALL_MESSAGE_BYTES);
+    let server =
+        ServerServiceServer::new(services.server).max_decoding_message_size(SMALL_MESSAGE_BYTES);
     let grpc = Routes::new(actors)
         .add_service(sessions)
         .add_service(capture)
         .add_service(curves)
         .add_service(takes)
+        .add_service(server)
         .add_service(health)
         .add_service(reflection().build_v1()?)
         .add_service(reflection().build_v1alpha()?)

@@ -5,6 +5,7 @@ pub mod capture;
 pub mod curves;
 mod ending;
 pub(super) mod refusal;
+pub mod server;
 pub mod sessions;
 #[cfg(test)]
 mod stage;

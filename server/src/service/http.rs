@@ -19,7 +19,7 @@ use axum::{
 };
 use tower_http::{catch_panic::CatchPanicLayer, timeout::TimeoutLayer};
 
-use super::sessions::Sessions;
+use super::{door::Services, sessions::Sessions};
 use crate::{catalogue::Store, shutdown::Phases, telemetry::Metrics};
 
 pub use fallback::{GrpcPanic, grpc_only, unknown};
@@ -35,6 +35,8 @@ pub struct Doors {
     pub store: Store,
     /// Sessions and their curves.
     pub sessions: Sessions,
+    /// What every door opens.
+    pub services: Services,
     /// Figures.
     pub metrics: Metrics,
     /// Whether the server drains.

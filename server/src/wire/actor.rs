@@ -5,7 +5,7 @@ use frontalis_analysis::{
     space::LengthUnit,
 };
 use frontalis_proto::v1;
-use prost_types::Timestamp;
+use pbjson_types::Timestamp;
 
 use super::invalid::{FieldError, FieldProblem};
 use crate::{

@@ -11,7 +11,9 @@ use super::{
     invalid::{FieldError, FieldProblem},
 };
 use crate::{
-    hub::{Delivery, Gap, GapCause, PublishedSample, StartAt, StreamState, SubscribeSpec, Update},
+    hub::{
+        Delivery, Gap, GapCause, Page, PublishedSample, StartAt, StreamState, SubscribeSpec, Update,
+    },
     name::{DisplayName, SessionId},
     session::SessionHandle,
 };
@@ -48,7 +50,7 @@ pub enum SubscribeRefusal {
     },
 }
 
-/// Checks a subscriber's start; `peer` names a subscriber that gives no name. `credits` are ignored where the subscriber
+/// Checks a subscriber's start, which came over `protocol`; `peer` names a subscriber that gives no name. `credits` are ignored where the subscriber
 /// cannot return them.
 ///
 /// # Errors
@@ -57,31 +59,77 @@ pub enum SubscribeRefusal {
 pub fn start(
     sent: &v1::SubscribeStart,
     peer: String,
+    protocol: &'static str,
     can_return_credits: bool,
 ) -> Result<SubscribeRequest, SubscribeRefusal> {
     let session = SessionId::from_resource(&sent.session).map_err(FieldError::name("session"))?;
     let name = DisplayName::parse("subscriber", &sent.subscriber)
         .map_err(FieldError::name("subscriber"))?;
     check_control_space(sent.control_space)?;
-    if sent.with_uncertainty {
-        return Err(SubscribeRefusal::NotImplemented {
-            what: "with_uncertainty",
-        });
-    }
+    let detail = detail(sent.with_uncertainty, sent.with_markers)?;
     let delivery = delivery(sent, can_return_credits)?;
     let name = name.into_string();
     Ok(SubscribeRequest {
         session,
         spec: SubscribeSpec {
             name: if name.is_empty() { peer } else { name },
-            protocol: "grpc",
+            protocol,
             delivery,
             run: (sent.run != 0).then_some(sent.run),
         },
-        detail: SampleDetail {
-            with_markers: sent.with_markers,
-        },
+        detail,
     })
+}
+
+/// What a reader without a stream asks for, checked.
+#[derive(Clone, Debug)]
+pub struct ReadRequest {
+    /// Which session.
+    pub session: SessionId,
+    /// None: the current one.
+    pub run: Option<u64>,
+    /// None: from the oldest that is kept.
+    pub after: Option<u64>,
+    /// Samples in the answer.
+    pub limit: usize,
+    /// What each sample holds.
+    pub detail: SampleDetail,
+}
+
+/// Samples of one answer when the client names no number, and the most.
+const READ_SAMPLES: [u32; 2] = [100, 1_000];
+
+/// Checks a reader's request.
+///
+/// # Errors
+///
+/// [`SubscribeRefusal`] names the first field that is wrong or not implemented.
+pub fn read(sent: &v1::ReadCurvesRequest) -> Result<ReadRequest, SubscribeRefusal> {
+    let [usual, most] = READ_SAMPLES;
+    let limit = match sent.limit {
+        0 => usual,
+        limit if limit <= most => limit,
+        _ => {
+            let detail = "at most 1,000 samples are read at once";
+            return Err(FieldError::unusable("limit", "LIMIT", detail).into());
+        }
+    };
+    Ok(ReadRequest {
+        session: SessionId::from_resource(&sent.session).map_err(FieldError::name("session"))?,
+        run: (sent.run != 0).then_some(sent.run),
+        after: sent.after,
+        limit: limit as usize,
+        detail: detail(sent.with_uncertainty, sent.with_markers)?,
+    })
+}
+
+fn detail(with_uncertainty: bool, with_markers: bool) -> Result<SampleDetail, SubscribeRefusal> {
+    if with_uncertainty {
+        return Err(SubscribeRefusal::NotImplemented {
+            what: "with_uncertainty",
+        });
+    }
+    Ok(SampleDetail { with_markers })
 }
 
 fn check_control_space(number: i32) -> Result<(), SubscribeRefusal> {
@@ -270,6 +318,23 @@ fn quality(quality: Quality) -> v1::Quality {
         Quality::Solved => v1::Quality::Solved,
         Quality::Partial => v1::Quality::Partial,
         Quality::Held => v1::Quality::Held,
+    }
+}
+
+/// Part of a session's curves, for readers without a stream.
+pub fn page_to_wire(
+    page: &Page,
+    header: v1::CurveHeader,
+    detail: SampleDetail,
+) -> v1::ReadCurvesResponse {
+    let samples = page.samples.iter();
+    v1::ReadCurvesResponse {
+        header: Some(header),
+        samples: samples.map(|it| sample_to_wire(it, detail)).collect(),
+        gaps: page.gaps.iter().map(gap_to_wire).collect(),
+        read_through: page.read_through,
+        newest_sequence: page.newest_sequence,
+        state: Some(state_to_wire(&page.state)),
     }
 }
 

@@ -71,7 +71,7 @@ pub fn curves(session: &SessionId, actor: &Actor, page: &Page) -> Value {
 }
 
 fn settings(it: &v1::SessionSettings) -> Value {
-    let millis = |it: &prost_types::Duration| {
+    let millis = |it: &pbjson_types::Duration| {
         it.seconds
             .saturating_mul(1_000)
             .saturating_add(i64::from(it.nanos / 1_000_000))
@@ -214,7 +214,7 @@ fn region(region: i32) -> &'static str {
     }
 }
 
-fn nanos(time: prost_types::Timestamp) -> i64 {
+fn nanos(time: pbjson_types::Timestamp) -> i64 {
     time.seconds
         .saturating_mul(1_000_000_000)
         .saturating_add(time.nanos.into())

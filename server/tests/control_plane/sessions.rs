@@ -103,7 +103,7 @@ async fn settings_change_by_presence_and_by_mask() {
         name: name("s"),
         settings: Some(settings),
         actor_revision: 0,
-        update_mask: Some(prost_types::FieldMask {
+        update_mask: Some(frontalis_proto::FieldMask {
             paths: paths.iter().map(|it| (*it).to_owned()).collect(),
         }),
     };

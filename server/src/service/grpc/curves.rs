@@ -15,8 +15,8 @@ use crate::{
     catalogue::Store,
     clock::ServerClock,
     hub::{Closing, Delivered, Subscription},
-    service::sessions::in_process,
-    session::{SessionError, SessionRegistry},
+    service::{peer::Peer, sessions::in_process},
+    session::{SessionError, SessionHandle, SessionRegistry},
     wire::curve::{self as wire, SampleDetail},
 };
 
@@ -42,14 +42,14 @@ impl CurvesGrpc {
     }
 
     /// The responses to one subscriber's requests.
-    pub(super) fn subscription<S>(&self, requests: S, peer: String) -> Responses
+    pub(super) fn subscription<S>(&self, requests: S, peer: Peer) -> Responses
     where
         S: Stream<Item = Result<v1::SubscribeRequest, Status>> + Send + Unpin + 'static,
     {
         self.responses(requests, Phase::Opening, peer)
     }
 
-    fn responses<S>(&self, grants: S, phase: Phase, peer: String) -> Responses
+    fn responses<S>(&self, grants: S, phase: Phase, peer: Peer) -> Responses
     where
         S: Stream<Item = Result<v1::SubscribeRequest, Status>> + Send + Unpin + 'static,
     {
@@ -70,17 +70,18 @@ impl CurvesGrpc {
     async fn open(
         &self,
         sent: &v1::SubscribeStart,
-        peer: String,
+        peer: &Peer,
         can_return_credits: bool,
     ) -> Result<(Flow, v1::SubscribeResponse), Status> {
-        let request = wire::start(sent, peer, can_return_credits)?;
+        let request = wire::start(
+            sent,
+            peer.address_name(),
+            peer.door.name(),
+            can_return_credits,
+        )?;
         let session = in_process(&self.registry, &self.store, &request.session).await?;
         let subscription = session.hub().subscribe(request.spec)?;
-        let header = wire::header(
-            &session,
-            self.clock.now_nanos(),
-            self.clock.unix_offset_nanos(),
-        );
+        let header = self.header(&session);
         let flow = Flow {
             subscription,
             detail: request.detail,
@@ -91,6 +92,11 @@ impl CurvesGrpc {
             ..v1::SubscribeResponse::default()
         };
         Ok((flow, response))
+    }
+
+    fn header(&self, session: &SessionHandle) -> v1::CurveHeader {
+        let now_nanos = self.clock.now_nanos();
+        wire::header(session, now_nanos, self.clock.unix_offset_nanos())
     }
 }
 
@@ -104,7 +110,7 @@ impl CurveService for CurvesGrpc {
         &self,
         request: Request<Streaming<v1::SubscribeRequest>>,
     ) -> Result<Response<Responses>, Status> {
-        let peer = peer_of(&request);
+        let peer = Peer::of(request.extensions());
         let responses = self.subscription(request.into_inner(), peer);
         Ok(Response::new(responses))
     }
@@ -115,17 +121,24 @@ impl CurveService for CurvesGrpc {
         &self,
         request: Request<v1::SubscribeStart>,
     ) -> Result<Response<Responses>, Status> {
-        let peer = peer_of(&request);
-        let (flow, header) = self.open(request.get_ref(), peer.clone(), false).await?;
+        let peer = Peer::of(request.extensions());
+        let (flow, header) = self.open(request.get_ref(), &peer, false).await?;
         let phase = Phase::Opened(Box::new(flow), Box::new(header));
         let responses = self.responses(stream::pending(), phase, peer);
         Ok(Response::new(responses))
     }
-}
 
-fn peer_of<T>(request: &Request<T>) -> String {
-    let address = request.remote_addr();
-    address.map_or_else(|| "unnamed".to_owned(), |it| it.to_string())
+    async fn read_curves(
+        &self,
+        request: Request<v1::ReadCurvesRequest>,
+    ) -> Result<Response<v1::ReadCurvesResponse>, Status> {
+        let asked = wire::read(request.get_ref())?;
+        let session = in_process(&self.registry, &self.store, &asked.session).await?;
+        let page = session.hub().page(asked.run, asked.after, asked.limit)?;
+        let header = self.header(&session);
+        let response = wire::page_to_wire(&page, header, asked.detail);
+        Ok(Response::new(response))
+    }
 }
 
 /// One subscriber's stream.
@@ -133,7 +146,7 @@ struct Following<S> {
     service: CurvesGrpc,
     grants: S,
     phase: Phase,
-    peer: String,
+    peer: Peer,
 }
 
 enum Phase {
@@ -196,7 +209,7 @@ where
         let start = request
             .start
             .ok_or_else(|| out_of_order("the first message must be start"))?;
-        self.service.open(&start, self.peer.clone(), true).await
+        self.service.open(&start, &self.peer, true).await
     }
 }
 

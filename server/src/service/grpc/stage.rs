@@ -26,7 +26,7 @@ use crate::{
     executor::Workers,
     fs::MemFs,
     name::{ActorId, SessionId},
-    service::sessions::Sessions,
+    service::{peer::Peer, sessions::Sessions},
     session::{
         RestoredAlignment, SessionEvent, SessionHandle, SessionLimits, SessionRegistry,
         SessionSettings, SessionSpec,
@@ -193,7 +193,7 @@ impl Stage {
         let received = ReceiverStream::new(received);
         Renderer {
             requests,
-            responses: self.curves.subscription(received, "peer".to_owned()),
+            responses: self.curves.subscription(received, peer()),
             header: None,
             states: Vec::new(),
         }
@@ -454,4 +454,12 @@ pub(super) fn in_order(response: &v1::SubscribeResponse) -> Vec<Seen> {
     let mut seen: Vec<Seen> = samples.chain(gaps).collect();
     seen.sort_by_key(Seen::first);
     seen
+}
+
+/// A renderer on this machine.
+fn peer() -> Peer {
+    Peer {
+        address: Some(([127, 0, 0, 1], 9).into()),
+        ..Peer::default()
+    }
 }

@@ -10,7 +10,10 @@ fn a_start() -> v1::SubscribeStart {
 }
 
 fn delivery_of(sent: &v1::SubscribeStart) -> Delivery {
-    start(sent, "peer".to_owned(), true).unwrap().spec.delivery
+    start(sent, "peer".to_owned(), "grpc", true)
+        .unwrap()
+        .spec
+        .delivery
 }
 
 #[test]
@@ -30,7 +33,10 @@ fn latest_is_the_default_and_zero_credits_are_none() {
         max_rate_hz: Some(60.0),
     };
     assert_eq!(delivery_of(&sent), controlled);
-    let followed = start(&sent, String::new(), false).unwrap().spec.delivery;
+    let followed = start(&sent, String::new(), "grpc", false)
+        .unwrap()
+        .spec
+        .delivery;
     assert_eq!(
         followed,
         Delivery::Latest {
@@ -59,7 +65,7 @@ fn every_frame_starts_where_it_is_told() {
 #[test]
 fn what_this_version_does_not_do_is_said() {
     let check = |sent| {
-        let refusal = start(&sent, String::new(), true).unwrap_err();
+        let refusal = start(&sent, String::new(), "grpc", true).unwrap_err();
         assert!(matches!(refusal, SubscribeRefusal::NotImplemented { .. }));
     };
     check(v1::SubscribeStart {
@@ -79,7 +85,7 @@ fn what_this_version_does_not_do_is_said() {
 #[test]
 fn a_subscriber_without_a_name_goes_by_its_peer() {
     assert_eq!(
-        start(&a_start(), "[::1]:9".to_owned(), true)
+        start(&a_start(), "[::1]:9".to_owned(), "grpc", true)
             .unwrap()
             .spec
             .name,
@@ -90,14 +96,17 @@ fn a_subscriber_without_a_name_goes_by_its_peer() {
         ..a_start()
     };
     assert_eq!(
-        start(&named, String::new(), true).unwrap().spec.name,
+        start(&named, String::new(), "grpc", true)
+            .unwrap()
+            .spec
+            .name,
         "wall"
     );
 }
 
 #[test]
 fn a_wrong_field_is_named() {
-    let check = |sent, reason: &str| match start(&sent, String::new(), true) {
+    let check = |sent, reason: &str| match start(&sent, String::new(), "grpc", true) {
         Err(SubscribeRefusal::Invalid(it)) => assert_eq!(it.reason(), reason),
         other => panic!("{other:?}"),
     };

@@ -111,7 +111,7 @@ pub fn effective(settings: &SessionSettings) -> v1::SessionSettings {
         RegionMode::Joint => v1::RegionMode::Joint,
         RegionMode::Split => v1::RegionMode::Split,
     };
-    let proto = |it: Duration| prost_types::Duration::try_from(it).ok();
+    let proto = |it: Duration| pbjson_types::Duration::try_from(it).ok();
     v1::SessionSettings {
         neutral_frames: u32::try_from(marker.neutral_frames).ok(),
         allow_exaggeration: Some(marker.allow_exaggeration),
@@ -228,7 +228,7 @@ fn region_mode(mode: i32) -> Result<Option<RegionMode>, FieldError> {
     }
 }
 
-fn duration(field: &'static str, asked: prost_types::Duration) -> Result<Duration, FieldError> {
+fn duration(field: &'static str, asked: pbjson_types::Duration) -> Result<Duration, FieldError> {
     let [least, most] = DURATIONS;
     Duration::try_from(asked)
         .ok()
@@ -285,7 +285,7 @@ mod tests {
             assert_eq!(refused(sparsity), ("sparsity", "SOLVER_OPTIONS"));
         }
         for (seconds, nanos) in [(0, 0), (-1, 0), (3_601, 0), (i64::MAX, i32::MIN)] {
-            let long = Some(prost_types::Duration { seconds, nanos });
+            let long = Some(pbjson_types::Duration { seconds, nanos });
             let stale = v1::SessionSettings {
                 stale_after: long,
                 ..off()

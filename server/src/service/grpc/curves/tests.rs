@@ -287,7 +287,7 @@ async fn a_dropped_stream_leaves_no_subscriber() {
     assert_eq!(named.len(), 2);
     assert_eq!(
         (named[0].subscriber.as_str(), named[0].protocol),
-        ("peer", "grpc")
+        ("127.0.0.1:9", "grpc")
     );
     drop((wall, recorder));
     assert!(stage.session.status().subscribers.is_empty());
