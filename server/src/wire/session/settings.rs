@@ -111,7 +111,7 @@ pub fn effective(settings: &SessionSettings) -> v1::SessionSettings {
         RegionMode::Joint => v1::RegionMode::Joint,
         RegionMode::Split => v1::RegionMode::Split,
     };
-    let proto = |it: Duration| pbjson_types::Duration::try_from(it).ok();
+    let proto = |it: Duration| Some(pbjson_types::Duration::from(it));
     v1::SessionSettings {
         neutral_frames: u32::try_from(marker.neutral_frames).ok(),
         allow_exaggeration: Some(marker.allow_exaggeration),
