@@ -5,6 +5,7 @@
 //! after an unanswered ping.
 
 mod admission;
+mod open_connection;
 mod opening;
 
 use std::{future::Future, io, net::SocketAddr, pin::pin, time::Duration};
@@ -27,6 +28,8 @@ use crate::{
 };
 use admission::{Admission, Permit};
 use opening::Opening;
+
+pub use open_connection::OpenConnection;
 
 /// Connections that the system may hold before they are accepted.
 const BACKLOG: u32 = 1_024;
@@ -119,11 +122,13 @@ impl Listener {
         let local = stream.local_addr().ok();
         let deadline = Duration::from_secs(transport.header_deadline_secs);
         let io = TokioIo::new(Opening::new(stream, deadline));
-        let service = serve(self.router.clone(), local, peer);
-        let connection = http.serve_connection(io, service).into_owned();
+        let open = OpenConnection::new(permit, self.tasks.token());
+        let service = serve(self.router.clone(), local, peer, open.clone());
+        let connection = http.serve_connection_with_upgrades(io, service);
+        let connection = connection.into_owned();
         let phases = self.phases.clone();
         self.tasks.spawn(async move {
-            let _permit = permit;
+            let _open = open;
             drive(connection, &phases).await;
         });
     }
@@ -131,10 +136,12 @@ impl Listener {
 
 /// Polls a connection to its end; when the server closes it is asked to end, when the server gives up it is dropped.
 async fn drive<S, B>(
-    connection: auto::Connection<'static, TokioIo<Opening<TcpStream>>, S, TokioExecutor>,
+    connection: auto::UpgradeableConnection<'static, TokioIo<Opening<TcpStream>>, S, TokioExecutor>,
     phases: &Phases,
 ) where
-    S: hyper::service::Service<http::Request<Incoming>, Response = http::Response<B>>,
+    S: hyper::service::Service<http::Request<Incoming>, Response = http::Response<B>>
+        + Send
+        + 'static,
     S::Error: Into<Box<dyn std::error::Error + Send + Sync>>,
     S::Future: Send + 'static,
     B: hyper::body::Body + Send + 'static,
@@ -165,6 +172,7 @@ fn serve(
     router: Router,
     local_addr: Option<SocketAddr>,
     peer: SocketAddr,
+    open: OpenConnection,
 ) -> impl hyper::service::Service<
     http::Request<Incoming>,
     Response = http::Response<Body>,
@@ -178,6 +186,7 @@ fn serve(
         };
         request.extensions_mut().insert(info);
         request.extensions_mut().insert(ConnectInfo(peer));
+        request.extensions_mut().insert(open.clone());
         router.clone().oneshot(request.map(Body::new))
     })
 }

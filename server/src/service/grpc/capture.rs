@@ -14,7 +14,7 @@ use super::status::refuse;
 use crate::{
     catalogue::Store,
     clock::ServerClock,
-    service::sessions::in_process,
+    service::{peer::Peer, sessions::in_process},
     session::{
         Grant, Granted, IncomingFrame, Offer, Publication, PublishEnd, SessionRegistry, Wait,
     },
@@ -49,7 +49,9 @@ impl CaptureGrpc {
     }
 
     /// The responses to one publisher's requests.
-    pub(super) fn publish<S>(&self, requests: S) -> Responses
+    ///
+    /// Every door comes through here.
+    pub(in crate::service) fn publish<S>(&self, requests: S, peer: Peer) -> Responses
     where
         S: Stream<Item = Result<v1::PublishMarkersRequest, Status>> + Send + Unpin + 'static,
     {
@@ -57,6 +59,7 @@ impl CaptureGrpc {
             service: self.clone(),
             requests,
             phase: Phase::Opening,
+            peer,
         };
         let responses = stream::unfold(publishing, |mut publishing| async {
             let response = publishing.next().await?;
@@ -65,7 +68,7 @@ impl CaptureGrpc {
         Box::pin(responses)
     }
 
-    async fn open(&self, sent: v1::PublishStart) -> Result<Publication, Status> {
+    async fn open(&self, sent: v1::PublishStart, peer: &Peer) -> Result<Publication, Status> {
         if sent.image.is_some() {
             return Err(not_implemented());
         }
@@ -84,12 +87,13 @@ impl CaptureGrpc {
             rate_hz: start.rate_hz,
         })?;
         let n_markers = publication.granted().shape.marker_names.len();
-        tracing::info!(session = %session.id(), %publisher, takeover, epoch, n_markers, "publisher granted");
+        tracing::info!(session = %session.id(), %publisher, door = peer.door.name(), takeover, epoch, n_markers, "publisher granted");
         Ok(publication)
     }
 }
 
-type Responses = Pin<Box<dyn Stream<Item = Result<v1::PublishResponse, Status>> + Send>>;
+/// The responses of one publisher's stream.
+pub type Responses = Pin<Box<dyn Stream<Item = Result<v1::PublishResponse, Status>> + Send>>;
 
 #[tonic::async_trait]
 impl CaptureService for CaptureGrpc {
@@ -99,7 +103,9 @@ impl CaptureService for CaptureGrpc {
         &self,
         request: Request<Streaming<v1::PublishMarkersRequest>>,
     ) -> Result<Response<Responses>, Status> {
-        Ok(Response::new(self.publish(request.into_inner())))
+        let peer = Peer::of(request.extensions());
+        let responses = self.publish(request.into_inner(), peer);
+        Ok(Response::new(responses))
     }
 
     type PublishImagesStream = Responses;
@@ -126,6 +132,7 @@ struct Publishing<S> {
     service: CaptureGrpc,
     requests: S,
     phase: Phase,
+    peer: Peer,
 }
 
 enum Phase {
@@ -161,7 +168,7 @@ where
         let missing = || protocol_order("the first message must be start");
         let publication = self
             .service
-            .open(request.start.ok_or_else(missing)?)
+            .open(request.start.ok_or_else(missing)?, &self.peer)
             .await?;
         let mut flow = Flow::new(publication, self.service.clock);
         flow.take_frames(request.frames)?;

@@ -42,7 +42,9 @@ impl CurvesGrpc {
     }
 
     /// The responses to one subscriber's requests.
-    pub(super) fn subscription<S>(&self, requests: S, peer: Peer) -> Responses
+    ///
+    /// Every door comes through here or through `follow`.
+    pub(in crate::service) fn subscription<S>(&self, requests: S, peer: Peer) -> Responses
     where
         S: Stream<Item = Result<v1::SubscribeRequest, Status>> + Send + Unpin + 'static,
     {
@@ -100,7 +102,8 @@ impl CurvesGrpc {
     }
 }
 
-type Responses = Pin<Box<dyn Stream<Item = Result<v1::SubscribeResponse, Status>> + Send>>;
+/// The responses of one subscriber's stream.
+pub type Responses = Pin<Box<dyn Stream<Item = Result<v1::SubscribeResponse, Status>> + Send>>;
 
 #[tonic::async_trait]
 impl CurveService for CurvesGrpc {

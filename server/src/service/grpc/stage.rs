@@ -156,7 +156,9 @@ impl Stage {
         let (requests, received) = mpsc::channel(1_024);
         Publisher {
             requests: Some(requests),
-            responses: self.capture.publish(ReceiverStream::new(received)),
+            responses: self
+                .capture
+                .publish(ReceiverStream::new(received), Peer::default()),
             started: None,
             rejected: Vec::new(),
             accepted_through: 0,
