@@ -98,6 +98,8 @@ pub struct Transport {
     pub keepalive_timeout_secs: u64,
     /// Time for the HTTP/2 preface or the HTTP/1 headers to arrive, seconds.
     pub header_deadline_secs: u64,
+    /// Time for a message that has begun to be complete, seconds.
+    pub message_deadline_secs: u64,
     /// What a peer may send ahead on one stream, KiB.
     pub stream_window_kib: u64,
     /// What a peer may send ahead on one connection, KiB.
@@ -158,6 +160,7 @@ impl Default for Transport {
             keepalive_interval_secs: 5,
             keepalive_timeout_secs: 10,
             header_deadline_secs: 5,
+            message_deadline_secs: 10,
             stream_window_kib: 64,
             connection_window_kib: 256,
             send_buffer_kib: 32,

@@ -131,6 +131,7 @@ pub async fn run(
         curves: CurvesGrpc::new(registry.clone(), store.clone(), clock),
         server: ServerGrpc::new(clock, protection(&config, address), phases.clone()),
         max_message_bytes: config.limits.message_bytes(),
+        message_deadline: Duration::from_secs(config.transport.message_deadline_secs),
         calls: Calls::new(&config.limits),
     };
     let doors = Doors {

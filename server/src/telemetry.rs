@@ -30,6 +30,7 @@ struct Inner {
     accept_failures: Counter,
     requests: Family<ProtocolLabel, Counter>,
     panics: Counter,
+    calls: Gauge,
     sessions: Family<SessionLabel, Gauge>,
     frames: Family<FramesLabel, Gauge<i64, AtomicI64>>,
     subscribers: Gauge,
@@ -136,6 +137,7 @@ impl Metrics {
             accept_failures: Counter::default(),
             requests: Family::default(),
             panics: Counter::default(),
+            calls: Gauge::default(),
             sessions: Family::default(),
             frames: Family::default(),
             subscribers: Gauge::default(),
@@ -188,6 +190,11 @@ impl Metrics {
     /// A handler panicked.
     pub fn panicked(&self) {
         self.0.panics.inc();
+    }
+
+    /// Calls in progress.
+    pub fn set_calls(&self, in_progress: usize) {
+        self.0.calls.set(clamped(in_progress as u64));
     }
 
     /// Whether new sessions are accepted.
@@ -277,6 +284,11 @@ impl Inner {
             "requests",
             "Requests since the start",
             self.requests.clone(),
+        );
+        it.register(
+            "calls",
+            "Calls in progress, of every door",
+            self.calls.clone(),
         );
         it.register("panics", "Handlers that panicked", self.panics.clone());
         it.register(

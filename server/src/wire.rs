@@ -7,4 +7,5 @@ pub mod curve;
 pub mod invalid;
 pub mod json;
 pub mod page;
+pub mod parts;
 pub mod session;

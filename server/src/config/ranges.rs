@@ -3,7 +3,7 @@
 use super::Config;
 
 /// Key, value, least and most.
-pub(super) fn ranges(config: &Config) -> [(&'static str, u64, u64, u64); 30] {
+pub(super) fn ranges(config: &Config) -> [(&'static str, u64, u64, u64); 31] {
     let (l, t) = (&config.limits, &config.transport);
     [
         ("shutdown_grace_secs", config.shutdown_grace_secs, 1, 300),
@@ -71,6 +71,12 @@ pub(super) fn ranges(config: &Config) -> [(&'static str, u64, u64, u64); 30] {
             t.header_deadline_secs,
             1,
             60,
+        ),
+        (
+            "transport.message_deadline_secs",
+            t.message_deadline_secs,
+            1,
+            600,
         ),
         (
             "transport.stream_window_kib",

@@ -23,7 +23,7 @@ use super::{door::Services, sessions::Sessions};
 use crate::{catalogue::Store, shutdown::Phases, telemetry::Metrics};
 
 pub use fallback::{GrpcPanic, grpc_only, unknown};
-pub use problem::with_instance;
+pub use problem::{Problem, with_instance};
 
 /// A request must be answered within this time.
 const DEADLINE: Duration = Duration::from_secs(10);

@@ -65,6 +65,7 @@ pub(super) async fn metrics(State(doors): State<Doors>) -> impl IntoResponse {
         .iter()
         .map(SessionHandle::status)
         .collect();
+    doors.metrics.set_calls(doors.services.calls.in_progress());
     doors.metrics.set_ready(!doors.phases.is_draining());
     doors.metrics.set_sessions(&figures(&all));
     let kind = "application/openmetrics-text; version=1.0.0; charset=utf-8";

@@ -2,17 +2,19 @@
 //!
 //! Both doors refuse alike: a problem is made from the gRPC status that the same call would get.
 
+use std::time::Duration;
+
 use axum::{
     Extension,
     extract::Request,
-    http::{HeaderValue, StatusCode, header},
+    http::{HeaderMap, HeaderValue, StatusCode, header},
     middleware::Next,
     response::{IntoResponse, Response},
 };
 use serde_json::{Map, Value, json};
 use tonic::{Code, Status};
 
-use crate::service::grpc::status::{metadata_of, reason_of};
+use crate::service::grpc::status::{metadata_of, reason_of, retry_after_of};
 
 /// Longest `instance`, in characters.
 const MAX_INSTANCE: usize = 256;
@@ -24,6 +26,7 @@ pub struct Problem {
     reason: String,
     detail: String,
     figures: Vec<(String, String)>,
+    retry_after: Option<Duration>,
 }
 
 impl Problem {
@@ -34,6 +37,7 @@ impl Problem {
             reason: reason.to_owned(),
             detail: detail.to_owned(),
             figures: Vec::new(),
+            retry_after: None,
         }
     }
 
@@ -64,6 +68,7 @@ impl From<Status> for Problem {
             reason: reason_of(&status).unwrap_or_else(|| "INTERNAL".to_owned()),
             detail: status.message().to_owned(),
             figures: metadata_of(&status),
+            retry_after: retry_after_of(&status),
         }
     }
 }
@@ -72,13 +77,14 @@ impl IntoResponse for Problem {
     fn into_response(self) -> Response {
         let body = self.body().to_string();
         let kind = HeaderValue::from_static("application/problem+json");
-        (
-            self.status,
-            [(header::CONTENT_TYPE, kind)],
-            Extension(self),
-            body,
-        )
-            .into_response()
+        let mut headers = HeaderMap::new();
+        headers.insert(header::CONTENT_TYPE, kind);
+        if let Some(delay) = self.retry_after {
+            // Whole seconds, rounded up: who waits less is refused again.
+            let seconds = delay.as_secs() + u64::from(delay.subsec_nanos() > 0);
+            headers.insert(header::RETRY_AFTER, seconds.into());
+        }
+        (self.status, headers, Extension(self), body).into_response()
     }
 }
 
@@ -138,6 +144,14 @@ mod tests {
         assert_eq!(body["title"], "new run");
         assert_eq!(body["status"], 416);
         assert_eq!(body["run"], 3);
+    }
+
+    #[test]
+    fn a_problem_says_in_whole_seconds_when_to_try_again() {
+        let limit = crate::service::grpc::refusal::limit("CALLS", "limits.calls", 8);
+        let answer = Problem::from(limit).into_response();
+        assert_eq!(answer.status(), StatusCode::TOO_MANY_REQUESTS);
+        assert_eq!(answer.headers()[header::RETRY_AFTER], "1");
     }
 
     #[test]
