@@ -137,8 +137,6 @@ pub async fn run(
         calls: Calls::new(&config.limits),
     };
     let doors = Doors {
-        store: store.clone(),
-        sessions: sessions.clone(),
         services,
         metrics: metrics.clone(),
         phases: phases.clone(),

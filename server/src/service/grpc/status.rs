@@ -157,5 +157,6 @@ mod tests {
         assert_eq!(status.message(), "the run is 4");
         assert_eq!(reason_of(&status).as_deref(), Some("NEW_RUN"));
         assert_eq!(retry_after_of(&status), Some(Duration::from_millis(1500)));
+        assert_eq!(retry_after_of(&Status::internal("")), None);
     }
 }

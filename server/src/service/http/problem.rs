@@ -19,6 +19,15 @@ use crate::service::grpc::status::{metadata_of, reason_of, retry_after_of};
 /// Longest `instance`, in characters.
 const MAX_INSTANCE: usize = 256;
 
+/// Greatest whole number that every reader of JSON holds.
+const MAX_NUMBER: u64 = 1 << 53;
+
+/// Of all that is exhausted, these are the body itself; trying again will not help.
+const TOO_LARGE: [&str; 2] = ["BASIS_SIZE", "CHUNK_SIZE"];
+
+/// Of every problem document.
+pub const MEDIA_TYPE: &str = "application/problem+json";
+
 /// A refusal on its way out.
 #[derive(Clone, Debug)]
 pub struct Problem {
@@ -41,6 +50,21 @@ impl Problem {
         }
     }
 
+    /// Adds a figure that a program can read.
+    #[must_use]
+    pub fn with(mut self, key: &str, value: &str) -> Self {
+        self.figures.push((key.to_owned(), value.to_owned()));
+        self
+    }
+
+    /// The document; `instance` is the path of the request.
+    pub fn document(&self, instance: &str) -> Value {
+        let mut body = self.body();
+        let instance: String = instance.chars().take(MAX_INSTANCE).collect();
+        body["instance"] = json!(instance);
+        body
+    }
+
     fn body(&self) -> Value {
         let mut body = Map::new();
         body.insert(
@@ -51,10 +75,9 @@ impl Problem {
         body.insert("status".into(), json!(self.status.as_u16()));
         body.insert("detail".into(), json!(self.detail));
         for (key, value) in &self.figures {
-            // Figures a program can read; a number stays a number.
-            let value = value
-                .parse::<u64>()
-                .map_or_else(|_| json!(value), |it| json!(it));
+            // Figures a program can read; a number stays a number as far as every reader of JSON holds it.
+            let number = value.parse::<u64>().ok().filter(|it| *it <= MAX_NUMBER);
+            let value = number.map_or_else(|| json!(value), |it| json!(it));
             body.entry(key.clone()).or_insert(value);
         }
         Value::Object(body)
@@ -63,12 +86,13 @@ impl Problem {
 
 impl From<Status> for Problem {
     fn from(status: Status) -> Self {
+        let reason = reason_of(&status).unwrap_or_else(|| "INTERNAL".to_owned());
         Self {
-            status: http_status(status.code()),
-            reason: reason_of(&status).unwrap_or_else(|| "INTERNAL".to_owned()),
+            status: http_status(status.code(), &reason),
+            retry_after: retry_after_of(&status),
+            reason,
             detail: status.message().to_owned(),
             figures: metadata_of(&status),
-            retry_after: retry_after_of(&status),
         }
     }
 }
@@ -76,13 +100,16 @@ impl From<Status> for Problem {
 impl IntoResponse for Problem {
     fn into_response(self) -> Response {
         let body = self.body().to_string();
-        let kind = HeaderValue::from_static("application/problem+json");
         let mut headers = HeaderMap::new();
-        headers.insert(header::CONTENT_TYPE, kind);
-        if let Some(delay) = self.retry_after {
+        headers.insert(header::CONTENT_TYPE, HeaderValue::from_static(MEDIA_TYPE));
+        if let Some(after) = self.retry_after {
             // Whole seconds, rounded up: who waits less is refused again.
-            let seconds = delay.as_secs() + u64::from(delay.subsec_nanos() > 0);
-            headers.insert(header::RETRY_AFTER, seconds.into());
+            let secs = after.as_secs() + u64::from(after.subsec_nanos() > 0);
+            headers.insert(header::RETRY_AFTER, secs.into());
+        }
+        if self.status == StatusCode::UNAUTHORIZED {
+            let scheme = HeaderValue::from_static("Bearer");
+            headers.insert(header::WWW_AUTHENTICATE, scheme);
         }
         (self.status, headers, Extension(self), body).into_response()
     }
@@ -90,11 +117,10 @@ impl IntoResponse for Problem {
 
 /// Writes the request's path into every problem as its `instance`.
 pub async fn with_instance(request: Request, next: Next) -> Response {
-    let instance: String = request.uri().path().chars().take(MAX_INSTANCE).collect();
+    let instance = request.uri().path().to_owned();
     let mut response = next.run(request).await;
     if let Some(problem) = response.extensions_mut().remove::<Problem>() {
-        let mut body = problem.body();
-        body["instance"] = json!(instance);
+        let body = problem.document(&instance);
         response.headers_mut().remove(header::CONTENT_LENGTH);
         *response.body_mut() = body.to_string().into();
     }
@@ -107,7 +133,10 @@ fn title(reason: &str) -> String {
 }
 
 /// The mapping of BAD_INPUT, "Status mapping".
-fn http_status(code: Code) -> StatusCode {
+fn http_status(code: Code, reason: &str) -> StatusCode {
+    if TOO_LARGE.contains(&reason) {
+        return StatusCode::PAYLOAD_TOO_LARGE;
+    }
     match code {
         Code::Ok => StatusCode::OK,
         Code::InvalidArgument => StatusCode::BAD_REQUEST,
