@@ -118,7 +118,7 @@ pub(super) async fn get(State(doors): State<Doors>, call: Call) -> Answer<v1::Se
     let name = call.name("sessions");
     let request = call.request(v1::GetSessionRequest { name });
     let response = doors.services.sessions.get_session(request).await?;
-    answer(response.into_inner().session)
+    Ok(answer(response.into_inner().session))
 }
 
 /// Changes settings, or moves the session to another revision of its actor, between two frames.
@@ -150,7 +150,7 @@ pub(super) async fn update(
     let name = call.name("sessions");
     let request = call.request(v1::UpdateSessionRequest { name, ..message });
     let response = doors.services.sessions.update_session(request).await?;
-    answer(response.into_inner().session)
+    Ok(answer(response.into_inner().session))
 }
 
 /// Takes the next usable frames as the neutral face again.
@@ -181,7 +181,7 @@ pub(super) async fn recenter(
     let name = call.name("sessions");
     let request = call.request(v1::RecenterSessionRequest { name });
     let response = doors.services.sessions.recenter_session(request).await?;
-    answer(response.into_inner().session)
+    Ok(answer(response.into_inner().session))
 }
 
 /// Ends the session once what is queued is done. One that has ended stays so.
@@ -211,9 +211,9 @@ pub(super) async fn end(
     let name = call.name("sessions");
     let request = call.request(v1::EndSessionRequest { name });
     let response = doors.services.sessions.end_session(request).await?;
-    answer(response.into_inner().session)
+    Ok(answer(response.into_inner().session))
 }
 
-fn answer(session: Option<v1::Session>) -> Answer<v1::Session> {
-    Ok(Json(session.unwrap_or_default()))
+fn answer(session: Option<v1::Session>) -> Json<v1::Session> {
+    Json(session.unwrap_or_default())
 }

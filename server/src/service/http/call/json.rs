@@ -89,7 +89,8 @@ mod tests {
 
     #[test]
     fn what_is_wrong_and_where_is_said_without_repeating_it() {
-        let deep = format!("{{\"settings\":{}", "[".repeat(100_000));
+        let (open, close) = ("[".repeat(100_000), "]".repeat(100_000));
+        let deep = format!("{{\"settings\":{{\"smoothing\":{open}{close}}}}}");
         let cases = [
             ("", "line 1, column 0: the JSON ends too early"),
             ("{", "line 1, column 1: the JSON ends too early"),
