@@ -11,7 +11,6 @@ pub mod executor;
 pub mod fs;
 pub mod hub;
 pub mod name;
-pub mod reload;
 pub mod service;
 pub mod session;
 pub mod shutdown;

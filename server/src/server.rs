@@ -12,7 +12,6 @@ use crate::{
     config::{Config, ConfigError, Limits, worst_case},
     executor::Workers,
     fs::MemFs,
-    reload::Reload,
     service::{
         calls::Calls,
         door::{self, ReflectionError, Services},
@@ -25,10 +24,7 @@ use crate::{
         },
         http::Doors,
         keeper::{self, EVENT_CAPACITY, Keeper},
-        listener::{
-            Listener,
-            tls::{Tls, TlsError},
-        },
+        listener::Listener,
         sessions::Sessions,
     },
     session::{SessionLimits, SessionRegistry},
@@ -42,9 +38,6 @@ pub enum RunError {
     /// The configuration is refused.
     #[error(transparent)]
     Config(#[from] ConfigError),
-    /// The certificates cannot be used.
-    #[error("TLS cannot be set up")]
-    Tls(#[from] TlsError),
     /// The data directory cannot be used.
     #[error("the catalogue cannot be opened")]
     Catalogue(#[from] CatalogueError),
@@ -61,8 +54,6 @@ pub struct Server {
     address: SocketAddr,
     metrics: Metrics,
     registry: SessionRegistry,
-    is_tls: bool,
-    reload: Reload,
     end: tokio::task::JoinHandle<bool>,
 }
 
@@ -70,17 +61,6 @@ impl Server {
     /// Where it listens.
     pub fn address(&self) -> SocketAddr {
         self.address
-    }
-
-    /// Where it listens, as a client writes it.
-    pub fn url(&self) -> String {
-        let scheme = if self.is_tls { "https" } else { "http" };
-        format!("{scheme}://{}", self.address)
-    }
-
-    /// Looks at the files again that may change without a restart. What does not fit is logged and changes nothing.
-    pub fn reload(&self) {
-        self.reload.ask();
     }
 
     /// Its figures.
@@ -114,29 +94,48 @@ pub async fn run(
 ) -> Result<Server, RunError> {
     config.validate()?;
     let address = listener.local_addr()?;
-    let tls = load_tls(&config).await?;
-    let protection = protection(&config, address);
     let clock = ServerClock::start_now();
-    let metrics = first_figures(&config, protection);
+    let metrics = Metrics::new(env!("CARGO_PKG_VERSION"));
+    metrics.set_insecure(!address.ip().is_loopback());
+    metrics.set_worst_case_bytes(worst_case(&config).iter().map(|it| it.bytes).sum());
+    metrics.set_ready(true);
 
     let heavy = Workers::pool(count(config.workers));
-    let store = open_store(&config, heavy.clone()).await?;
+    // One connection to the database, so one worker: commits come one after the other anyway.
+    let commits = Workers::pool(1);
+    let directory = config.directory();
+    let catalogue = commits
+        .run(move || match directory {
+            Some(directory) => Catalogue::open(&directory),
+            None => Catalogue::in_memory(MemFs::default()),
+        })
+        .await?;
+    let cached = count(config.limits.cached_actors);
+    let store = Store::new(catalogue, commits, heavy.clone(), cached);
     let (events, kept) = mpsc::channel(EVENT_CAPACITY);
     let limits = session_limits(&config.limits);
     let registry = SessionRegistry::new(limits.clone(), clock, events);
     let sessions = Sessions::new(store.clone(), registry.clone(), clock, limits.sessions);
     let phases = Phases::default();
     let services = Services {
-        actors: actors(&config.limits, store.clone(), clock, heavy),
+        actors: ActorsGrpc::new(
+            store.clone(),
+            clock,
+            heavy,
+            config.limits.package_bytes(),
+            count(config.limits.imports),
+            count(config.limits.exports),
+        ),
         sessions: SessionsGrpc(sessions.clone()),
         capture: CaptureGrpc::new(registry.clone(), store.clone(), clock),
         curves: CurvesGrpc::new(registry.clone(), store.clone(), clock),
-        server: ServerGrpc::new(clock, protection, phases.clone()),
+        server: ServerGrpc::new(clock, protection(&config, address), phases.clone()),
         max_message_bytes: config.limits.message_bytes(),
-        message_deadline: Duration::from_secs(config.transport.message_deadline_secs),
         calls: Calls::new(&config.limits),
     };
     let doors = Doors {
+        store: store.clone(),
+        sessions: sessions.clone(),
         services,
         metrics: metrics.clone(),
         phases: phases.clone(),
@@ -158,16 +157,10 @@ pub async fn run(
     }
     upkeep.spawn(keeper::collect(sessions, retention, drained.clone()));
 
-    let reload = Reload::default();
-    if let Some(tls) = &tls {
-        let (reloads, end) = (reload.listen(), phases.closing.clone());
-        upkeep.spawn(tls.clone().follow(reloads, metrics.clone(), end));
-    }
     let connections = TaskTracker::new();
     let accepting = Listener {
         listener,
         router,
-        tls: tls.clone(),
         metrics: metrics.clone(),
         phases: phases.clone(),
         tasks: connections.clone(),
@@ -191,8 +184,6 @@ pub async fn run(
         address,
         metrics,
         registry,
-        is_tls: tls.is_some(),
-        reload,
         end,
     })
 }
@@ -248,54 +239,11 @@ impl Ending {
     }
 }
 
-async fn open_store(config: &Config, heavy: Workers) -> Result<Store, CatalogueError> {
-    // One connection to the database, so one worker: commits come one after the other anyway.
-    let commits = Workers::pool(1);
-    let directory = config.directory();
-    let catalogue = commits
-        .run(move || match directory {
-            Some(directory) => Catalogue::open(&directory),
-            None => Catalogue::in_memory(MemFs::default()),
-        })
-        .await?;
-    let cached = count(config.limits.cached_actors);
-    Ok(Store::new(catalogue, commits, heavy, cached))
-}
-
-fn actors(limits: &Limits, store: Store, clock: ServerClock, heavy: Workers) -> ActorsGrpc {
-    let (imports, exports) = (count(limits.imports), count(limits.exports));
-    ActorsGrpc::new(
-        store,
-        clock,
-        heavy,
-        limits.package_bytes(),
-        imports,
-        exports,
-    )
-}
-
-fn first_figures(config: &Config, protection: Protection) -> Metrics {
-    let metrics = Metrics::new(env!("CARGO_PKG_VERSION"));
-    metrics.set_insecure(protection.insecure);
-    metrics.set_worst_case_bytes(worst_case(config).iter().map(|it| it.bytes).sum());
-    metrics.set_ready(true);
-    metrics
-}
-
-async fn load_tls(config: &Config) -> Result<Option<Tls>, RunError> {
-    if !config.tls.is_on() {
-        return Ok(None);
-    }
-    let paths = config.tls.clone();
-    let loaded = tokio::task::spawn_blocking(move || Tls::load(&paths)).await;
-    Ok(Some(loaded.map_err(io::Error::other)??))
-}
-
-fn protection(config: &Config, address: SocketAddr) -> Protection {
+fn protection(_config: &Config, address: SocketAddr) -> Protection {
     Protection {
-        tls: config.tls.is_on(),
-        tokens: config.has_tokens(),
-        insecure: !address.ip().is_loopback() && !config.is_protected(),
+        tls: false,
+        tokens: false,
+        insecure: !address.ip().is_loopback(),
     }
 }
 

@@ -4,8 +4,6 @@ pub mod actors;
 pub mod capture;
 pub mod curves;
 mod ending;
-pub mod messages;
-pub mod reasons;
 pub(super) mod refusal;
 pub mod server;
 pub mod sessions;
