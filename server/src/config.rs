@@ -3,16 +3,22 @@
 //! Defaults, then the file, then the environment, then flags ([`layers`]); unknown keys are refused by name.
 //! `deploy/frontalis.toml` says what each key does, its unit and its default.
 
+mod error;
+mod http;
 pub mod layers;
 mod memory;
 mod ranges;
+mod tls;
 
 use std::{net::SocketAddr, path::PathBuf, time::Duration};
 
 use serde::{Deserialize, Serialize};
 
+pub use error::ConfigError;
+pub use http::{Http, Origin};
 pub use memory::{MemoryItem, SMALL_MESSAGE_BYTES, worst_case};
 use ranges::ranges;
+pub use tls::Tls;
 
 const KIB: u64 = 1024;
 const MIB: u64 = 1024 * KIB;
@@ -28,8 +34,10 @@ pub struct Config {
     pub listen: SocketAddr,
     /// Where actors and sessions are kept, or [`IN_MEMORY`].
     pub data_dir: String,
-    /// Accept a bind other than loopback although there is neither TLS nor authentication.
+    /// Accept a bind other than loopback although TLS or tokens are missing.
     pub allow_insecure: bool,
+    /// File of the tokens that callers must present; empty: callers are not asked who they are.
+    pub token_file: String,
     /// Filter of the log, as `tracing_subscriber::EnvFilter` reads it.
     pub log: String,
     /// How long a drain may take before what is still open is cut, seconds.
@@ -44,6 +52,10 @@ pub struct Config {
     pub limits: Limits,
     /// Buffers and deadlines of connections.
     pub transport: Transport,
+    /// Certificates.
+    pub tls: Tls,
+    /// What browsers may do.
+    pub http: Http,
 }
 
 /// Limits of what clients may make the server hold (CONTRACTS O-1, D-18).
@@ -96,8 +108,12 @@ pub struct Transport {
     pub keepalive_interval_secs: u64,
     /// A peer that does not answer a ping for so long is gone, seconds.
     pub keepalive_timeout_secs: u64,
+    /// Time for a TLS handshake, seconds.
+    pub handshake_deadline_secs: u64,
     /// Time for the HTTP/2 preface or the HTTP/1 headers to arrive, seconds.
     pub header_deadline_secs: u64,
+    /// Time for a message that has begun to be complete, seconds.
+    pub message_deadline_secs: u64,
     /// What a peer may send ahead on one stream, KiB.
     pub stream_window_kib: u64,
     /// What a peer may send ahead on one connection, KiB.
@@ -116,6 +132,7 @@ impl Default for Config {
             listen: SocketAddr::from(([127, 0, 0, 1], 7400)),
             data_dir: "frontalis-data".to_owned(),
             allow_insecure: false,
+            token_file: String::new(),
             log: "info".to_owned(),
             shutdown_grace_secs: 5,
             memory_budget_mib: 12_288,
@@ -123,6 +140,8 @@ impl Default for Config {
             session_retention_hours: 24,
             limits: Limits::default(),
             transport: Transport::default(),
+            tls: Tls::default(),
+            http: Http::default(),
         }
     }
 }
@@ -157,7 +176,9 @@ impl Default for Transport {
         Self {
             keepalive_interval_secs: 5,
             keepalive_timeout_secs: 10,
+            handshake_deadline_secs: 5,
             header_deadline_secs: 5,
+            message_deadline_secs: 10,
             stream_window_kib: 64,
             connection_window_kib: 256,
             send_buffer_kib: 32,
@@ -165,78 +186,6 @@ impl Default for Transport {
             header_list_kib: 16,
         }
     }
-}
-
-/// Why a configuration is refused.
-#[derive(Debug, thiserror::Error)]
-pub enum ConfigError {
-    /// The file cannot be read.
-    #[error("the configuration file {} cannot be read", path.display())]
-    File {
-        /// The file.
-        path: PathBuf,
-        /// What the system says.
-        #[source]
-        cause: std::io::Error,
-    },
-    /// The file is not TOML.
-    #[error("the configuration file {} is not valid TOML", path.display())]
-    Syntax {
-        /// The file.
-        path: PathBuf,
-        /// What the parser says.
-        #[source]
-        cause: toml::de::Error,
-    },
-    /// A key is unknown or its value has another type.
-    #[error("the configuration is refused")]
-    Key(#[source] toml::de::Error),
-    /// An environment variable names no key.
-    #[error("the environment variable {name} names no configuration key")]
-    UnknownVariable {
-        /// Name of the variable.
-        name: String,
-    },
-    /// An environment variable's value has another type than its key.
-    #[error("the environment variable {name} must be {wanted}")]
-    Variable {
-        /// Name of the variable.
-        name: String,
-        /// The type of its key.
-        wanted: &'static str,
-    },
-    /// A value is out of its range.
-    #[error("{key} is {found}, it must be within {least}..={most}")]
-    Range {
-        /// The key.
-        key: &'static str,
-        /// Its value.
-        found: u64,
-        /// Smallest value.
-        least: u64,
-        /// Largest value.
-        most: u64,
-    },
-    /// A bind that others can reach, without protection.
-    #[error(
-        "listen is {listen}: an address other than loopback has neither TLS nor authentication; \
-         give --allow-insecure to accept that"
-    )]
-    Insecure {
-        /// The address.
-        listen: SocketAddr,
-    },
-    /// The limits allow more memory than the budget.
-    #[error(
-        "the limits allow {needed_mib} MiB in the worst case, memory_budget_mib is {budget_mib}; \
-         lower the limits or raise the budget"
-    )]
-    Memory {
-        /// Worst case, MiB.
-        needed_mib: u64,
-        /// The budget, MiB.
-        budget_mib: u64,
-    },
 }
 
 impl Config {
@@ -256,9 +205,12 @@ impl Config {
                 });
             }
         }
-        if self.is_exposed() && !self.allow_insecure {
+        self.tls.validate()?;
+        self.http.validate()?;
+        if self.is_exposed() && !self.is_protected() && !self.allow_insecure {
             return Err(ConfigError::Insecure {
                 listen: self.listen,
+                missing: self.missing_protection(),
             });
         }
         let needed = worst_case(self)
@@ -277,6 +229,26 @@ impl Config {
     /// Whether others than this machine can reach the port.
     pub fn is_exposed(&self) -> bool {
         !self.listen.ip().is_loopback()
+    }
+
+    /// Whether nobody reads along and everybody says who they are.
+    pub fn is_protected(&self) -> bool {
+        self.tls.is_on() && self.has_tokens()
+    }
+
+    /// Whether callers are asked who they are.
+    pub fn has_tokens(&self) -> bool {
+        !self.token_file.is_empty()
+    }
+
+    /// What [`Config::is_protected`] misses, in words; empty: nothing.
+    pub fn missing_protection(&self) -> &'static str {
+        match (self.tls.is_on(), self.has_tokens()) {
+            (false, false) => "neither TLS nor tokens",
+            (false, true) => "no TLS",
+            (true, false) => "no tokens",
+            (true, true) => "",
+        }
     }
 
     /// The data directory, or none to keep everything in memory.
@@ -326,17 +298,38 @@ mod tests {
     }
 
     #[test]
-    fn an_address_that_others_can_reach_needs_allow_insecure() {
-        let mut config = Config {
+    fn an_address_that_others_can_reach_needs_tls_and_tokens_or_allow_insecure() {
+        let exposed = Config {
             listen: "0.0.0.0:7400".parse().unwrap(),
             ..Config::default()
         };
-        assert!(matches!(
-            config.validate(),
-            Err(ConfigError::Insecure { .. })
-        ));
-        config.allow_insecure = true;
-        config.validate().unwrap();
+        let tls = Tls {
+            cert: "cert.pem".to_owned(),
+            key: "key.pem".to_owned(),
+            ..Tls::default()
+        };
+        let (with_tls, with_tokens) = (
+            Config {
+                tls: tls.clone(),
+                ..exposed.clone()
+            },
+            Config {
+                token_file: "tokens.toml".to_owned(),
+                ..exposed.clone()
+            },
+        );
+        for (config, missing) in [
+            (&exposed, "neither TLS nor tokens"),
+            (&with_tls, "no tokens"),
+            (&with_tokens, "no TLS"),
+        ] {
+            let message = config.validate().unwrap_err().to_string();
+            assert!(message.contains(missing), "{message}");
+            let mut accepted = config.clone();
+            accepted.allow_insecure = true;
+            accepted.validate().unwrap();
+        }
+        Config { tls, ..with_tokens }.validate().unwrap();
     }
 
     #[test]

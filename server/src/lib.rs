@@ -11,6 +11,7 @@ pub mod executor;
 pub mod fs;
 pub mod hub;
 pub mod name;
+pub mod reload;
 pub mod service;
 pub mod session;
 pub mod shutdown;

@@ -11,7 +11,7 @@ use frontalis_server::{
         worst_case,
     },
     service::listener::bind,
-    shutdown::StopSignals,
+    shutdown::{ReloadSignal, StopSignals},
     telemetry::start_log,
 };
 use tokio_util::sync::CancellationToken;
@@ -46,12 +46,18 @@ fn start(flags: &Flags) -> anyhow::Result<()> {
 
 async fn serve(config: Config) -> anyhow::Result<()> {
     let mut signals = StopSignals::take().context("the signals cannot be taken over")?;
+    let mut hang_ups = ReloadSignal::take().context("the signals cannot be taken over")?;
     let listener = bind(config.listen, &config.transport).map_err(|error| busy(&config, error))?;
     say(&config);
     let shutdown = CancellationToken::new();
     let server = frontalis_server::run(config, listener, shutdown.clone()).await?;
-    println!("listening on http://{}", server.address());
-    let signal = signals.next().await;
+    println!("listening on {}", server.url());
+    let signal = loop {
+        tokio::select! {
+            signal = signals.next() => break signal,
+            () = hang_ups.next() => server.reload(),
+        }
+    };
     tracing::info!(signal, "asked to stop");
     shutdown.cancel();
     tokio::select! {
@@ -91,8 +97,9 @@ fn say(config: &Config) {
         budget_mib = config.memory_budget_mib,
         "worst-case memory in all"
     );
-    if config.is_exposed() {
-        tracing::warn!("INSECURE: others can reach this port, without TLS and authentication");
+    if config.is_exposed() && !config.is_protected() {
+        let missing = config.missing_protection();
+        tracing::warn!(missing, "INSECURE: others can reach this port");
     }
 }
 

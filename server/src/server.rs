@@ -12,6 +12,7 @@ use crate::{
     config::{Config, ConfigError, Limits, worst_case},
     executor::Workers,
     fs::MemFs,
+    reload::Reload,
     service::{
         calls::Calls,
         door::{self, ReflectionError, Services},
@@ -24,7 +25,10 @@ use crate::{
         },
         http::Doors,
         keeper::{self, EVENT_CAPACITY, Keeper},
-        listener::Listener,
+        listener::{
+            Listener,
+            tls::{Tls, TlsError},
+        },
         sessions::Sessions,
     },
     session::{SessionLimits, SessionRegistry},
@@ -38,6 +42,9 @@ pub enum RunError {
     /// The configuration is refused.
     #[error(transparent)]
     Config(#[from] ConfigError),
+    /// The certificates cannot be used.
+    #[error("TLS cannot be set up")]
+    Tls(#[from] TlsError),
     /// The data directory cannot be used.
     #[error("the catalogue cannot be opened")]
     Catalogue(#[from] CatalogueError),
@@ -54,6 +61,8 @@ pub struct Server {
     address: SocketAddr,
     metrics: Metrics,
     registry: SessionRegistry,
+    is_tls: bool,
+    reload: Reload,
     end: tokio::task::JoinHandle<bool>,
 }
 
@@ -61,6 +70,17 @@ impl Server {
     /// Where it listens.
     pub fn address(&self) -> SocketAddr {
         self.address
+    }
+
+    /// Where it listens, as a client writes it.
+    pub fn url(&self) -> String {
+        let scheme = if self.is_tls { "https" } else { "http" };
+        format!("{scheme}://{}", self.address)
+    }
+
+    /// Looks at the files again that may change without a restart. What does not fit is logged and changes nothing.
+    pub fn reload(&self) {
+        self.reload.ask();
     }
 
     /// Its figures.
@@ -94,48 +114,29 @@ pub async fn run(
 ) -> Result<Server, RunError> {
     config.validate()?;
     let address = listener.local_addr()?;
+    let tls = load_tls(&config).await?;
+    let protection = protection(&config, address);
     let clock = ServerClock::start_now();
-    let metrics = Metrics::new(env!("CARGO_PKG_VERSION"));
-    metrics.set_insecure(!address.ip().is_loopback());
-    metrics.set_worst_case_bytes(worst_case(&config).iter().map(|it| it.bytes).sum());
-    metrics.set_ready(true);
+    let metrics = first_figures(&config, protection);
 
     let heavy = Workers::pool(count(config.workers));
-    // One connection to the database, so one worker: commits come one after the other anyway.
-    let commits = Workers::pool(1);
-    let directory = config.directory();
-    let catalogue = commits
-        .run(move || match directory {
-            Some(directory) => Catalogue::open(&directory),
-            None => Catalogue::in_memory(MemFs::default()),
-        })
-        .await?;
-    let cached = count(config.limits.cached_actors);
-    let store = Store::new(catalogue, commits, heavy.clone(), cached);
+    let store = open_store(&config, heavy.clone()).await?;
     let (events, kept) = mpsc::channel(EVENT_CAPACITY);
     let limits = session_limits(&config.limits);
     let registry = SessionRegistry::new(limits.clone(), clock, events);
     let sessions = Sessions::new(store.clone(), registry.clone(), clock, limits.sessions);
     let phases = Phases::default();
     let services = Services {
-        actors: ActorsGrpc::new(
-            store.clone(),
-            clock,
-            heavy,
-            config.limits.package_bytes(),
-            count(config.limits.imports),
-            count(config.limits.exports),
-        ),
+        actors: actors(&config.limits, store.clone(), clock, heavy),
         sessions: SessionsGrpc(sessions.clone()),
         capture: CaptureGrpc::new(registry.clone(), store.clone(), clock),
         curves: CurvesGrpc::new(registry.clone(), store.clone(), clock),
-        server: ServerGrpc::new(clock, protection(&config, address), phases.clone()),
+        server: ServerGrpc::new(clock, protection, phases.clone()),
         max_message_bytes: config.limits.message_bytes(),
+        message_deadline: Duration::from_secs(config.transport.message_deadline_secs),
         calls: Calls::new(&config.limits),
     };
     let doors = Doors {
-        store: store.clone(),
-        sessions: sessions.clone(),
         services,
         metrics: metrics.clone(),
         phases: phases.clone(),
@@ -157,10 +158,16 @@ pub async fn run(
     }
     upkeep.spawn(keeper::collect(sessions, retention, drained.clone()));
 
+    let reload = Reload::default();
+    if let Some(tls) = &tls {
+        let (reloads, end) = (reload.listen(), phases.closing.clone());
+        upkeep.spawn(tls.clone().follow(reloads, metrics.clone(), end));
+    }
     let connections = TaskTracker::new();
     let accepting = Listener {
         listener,
         router,
+        tls: tls.clone(),
         metrics: metrics.clone(),
         phases: phases.clone(),
         tasks: connections.clone(),
@@ -184,6 +191,8 @@ pub async fn run(
         address,
         metrics,
         registry,
+        is_tls: tls.is_some(),
+        reload,
         end,
     })
 }
@@ -239,11 +248,54 @@ impl Ending {
     }
 }
 
-fn protection(_config: &Config, address: SocketAddr) -> Protection {
+async fn open_store(config: &Config, heavy: Workers) -> Result<Store, CatalogueError> {
+    // One connection to the database, so one worker: commits come one after the other anyway.
+    let commits = Workers::pool(1);
+    let directory = config.directory();
+    let catalogue = commits
+        .run(move || match directory {
+            Some(directory) => Catalogue::open(&directory),
+            None => Catalogue::in_memory(MemFs::default()),
+        })
+        .await?;
+    let cached = count(config.limits.cached_actors);
+    Ok(Store::new(catalogue, commits, heavy, cached))
+}
+
+fn actors(limits: &Limits, store: Store, clock: ServerClock, heavy: Workers) -> ActorsGrpc {
+    let (imports, exports) = (count(limits.imports), count(limits.exports));
+    ActorsGrpc::new(
+        store,
+        clock,
+        heavy,
+        limits.package_bytes(),
+        imports,
+        exports,
+    )
+}
+
+fn first_figures(config: &Config, protection: Protection) -> Metrics {
+    let metrics = Metrics::new(env!("CARGO_PKG_VERSION"));
+    metrics.set_insecure(protection.insecure);
+    metrics.set_worst_case_bytes(worst_case(config).iter().map(|it| it.bytes).sum());
+    metrics.set_ready(true);
+    metrics
+}
+
+async fn load_tls(config: &Config) -> Result<Option<Tls>, RunError> {
+    if !config.tls.is_on() {
+        return Ok(None);
+    }
+    let paths = config.tls.clone();
+    let loaded = tokio::task::spawn_blocking(move || Tls::load(&paths)).await;
+    Ok(Some(loaded.map_err(io::Error::other)??))
+}
+
+fn protection(config: &Config, address: SocketAddr) -> Protection {
     Protection {
-        tls: false,
-        tokens: false,
-        insecure: !address.ip().is_loopback(),
+        tls: config.tls.is_on(),
+        tokens: config.has_tokens(),
+        insecure: !address.ip().is_loopback() && !config.is_protected(),
     }
 }
 

@@ -2,10 +2,12 @@
 
 pub mod access;
 pub mod calls;
+pub mod deadline;
 pub mod door;
 pub mod grpc;
 pub mod http;
 pub mod keeper;
 pub mod listener;
+pub mod panics;
 pub mod peer;
 pub mod sessions;

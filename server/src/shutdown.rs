@@ -53,3 +53,22 @@ impl StopSignals {
         }
     }
 }
+
+/// SIGHUP of this process, which asks to look at files again.
+pub struct ReloadSignal(Signal);
+
+impl ReloadSignal {
+    /// Takes the signal over; from now on it no longer ends the process.
+    ///
+    /// # Errors
+    ///
+    /// As the system says.
+    pub fn take() -> io::Result<Self> {
+        signal(SignalKind::hangup()).map(Self)
+    }
+
+    /// Waits for the next.
+    pub async fn next(&mut self) {
+        self.0.recv().await;
+    }
+}

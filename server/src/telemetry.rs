@@ -28,8 +28,11 @@ struct Inner {
     connections_accepted: Counter,
     connections_refused: Family<RefusedLabel, Counter>,
     accept_failures: Counter,
+    handshake_failures: Family<HandshakeLabel, Counter>,
+    certificate_reloads: Family<ReloadLabel, Counter>,
     requests: Family<ProtocolLabel, Counter>,
     panics: Counter,
+    calls: Gauge,
     sessions: Family<SessionLabel, Gauge>,
     frames: Family<FramesLabel, Gauge<i64, AtomicI64>>,
     subscribers: Gauge,
@@ -47,6 +50,17 @@ pub enum ConnectionLimit {
     Connections,
     /// `limits.connections_per_peer`.
     ConnectionsPerPeer,
+}
+
+/// Why a TLS handshake came to nothing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum HandshakeFailure {
+    /// It took too long.
+    Stalled,
+    /// The client's certificate is not believed.
+    Certificate,
+    /// It was no TLS, or none that is spoken here.
+    Protocol,
 }
 
 /// How a request was spoken.
@@ -67,6 +81,16 @@ impl ConnectionLimit {
     }
 }
 
+impl HandshakeFailure {
+    fn name(self) -> &'static str {
+        match self {
+            Self::Stalled => "stalled",
+            Self::Certificate => "certificate",
+            Self::Protocol => "protocol",
+        }
+    }
+}
+
 impl Protocol {
     fn name(self) -> &'static str {
         match self {
@@ -79,6 +103,16 @@ impl Protocol {
 #[derive(Clone, Debug, PartialEq, Eq, Hash, EncodeLabelSet)]
 struct RefusedLabel {
     limit: &'static str,
+}
+
+#[derive(Clone, Debug, PartialEq, Eq, Hash, EncodeLabelSet)]
+struct HandshakeLabel {
+    why: &'static str,
+}
+
+#[derive(Clone, Debug, PartialEq, Eq, Hash, EncodeLabelSet)]
+struct ReloadLabel {
+    taken: &'static str,
 }
 
 #[derive(Clone, Debug, PartialEq, Eq, Hash, EncodeLabelSet)]
@@ -134,8 +168,11 @@ impl Metrics {
             connections_accepted: Counter::default(),
             connections_refused: Family::default(),
             accept_failures: Counter::default(),
+            handshake_failures: Family::default(),
+            certificate_reloads: Family::default(),
             requests: Family::default(),
             panics: Counter::default(),
+            calls: Gauge::default(),
             sessions: Family::default(),
             frames: Family::default(),
             subscribers: Gauge::default(),
@@ -175,6 +212,21 @@ impl Metrics {
         self.0.accept_failures.inc();
     }
 
+    /// A TLS handshake came to nothing.
+    pub fn handshake_failed(&self, why: HandshakeFailure) {
+        let label = HandshakeLabel { why: why.name() };
+        self.0.handshake_failures.get_or_create(&label).inc();
+    }
+
+    /// The certificates were read again, and taken or not.
+    pub fn certificates_reloaded(&self, taken: bool) {
+        let taken = if taken { "yes" } else { "no" };
+        self.0
+            .certificate_reloads
+            .get_or_create(&ReloadLabel { taken })
+            .inc();
+    }
+
     /// A request came in.
     pub fn request(&self, protocol: Protocol) {
         self.0
@@ -188,6 +240,11 @@ impl Metrics {
     /// A handler panicked.
     pub fn panicked(&self) {
         self.0.panics.inc();
+    }
+
+    /// Calls in progress.
+    pub fn set_calls(&self, in_progress: usize) {
+        self.0.calls.set(clamped(in_progress as u64));
     }
 
     /// Whether new sessions are accepted.
@@ -274,9 +331,24 @@ impl Inner {
             self.accept_failures.clone(),
         );
         it.register(
+            "tls_handshake_failures",
+            "TLS handshakes that came to nothing, by why",
+            self.handshake_failures.clone(),
+        );
+        it.register(
+            "tls_certificate_reloads",
+            "Certificates that were read again, by whether they were taken",
+            self.certificate_reloads.clone(),
+        );
+        it.register(
             "requests",
             "Requests since the start",
             self.requests.clone(),
+        );
+        it.register(
+            "calls",
+            "Calls in progress, of every door",
+            self.calls.clone(),
         );
         it.register("panics", "Handlers that panicked", self.panics.clone());
         it.register(
@@ -307,7 +379,7 @@ impl Inner {
         it.register("ready", "1: new sessions are accepted", self.ready.clone());
         it.register(
             "insecure",
-            "1: others can reach the port, without TLS and authentication",
+            "1: others can reach the port, without TLS or without tokens",
             self.insecure.clone(),
         );
         it.register_with_unit(

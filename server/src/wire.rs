@@ -5,6 +5,6 @@ pub mod capture;
 pub mod common;
 pub mod curve;
 pub mod invalid;
-pub mod json;
 pub mod page;
+pub mod parts;
 pub mod session;

@@ -29,25 +29,23 @@ fn error_line(output: &Output) -> String {
 
 /// Starts a server on a free port; its child process and its address.
 fn start(data_dir: &str) -> (Child, String) {
-    let arguments = [
-        "--listen",
-        "127.0.0.1:0",
-        "--log",
-        "warn",
-        "--data-dir",
-        data_dir,
-    ];
-    let mut child = program(&arguments).stdout(Stdio::piped()).spawn().unwrap();
+    let (child, line) = start_with(&["--data-dir", data_dir]);
+    let address = line.strip_prefix("listening on http://").unwrap();
+    (child, address.to_owned())
+}
+
+/// Starts a server on a free port; its child process and its first line.
+fn start_with(arguments: &[&str]) -> (Child, String) {
+    let mut child = program(&["--listen", "127.0.0.1:0", "--log", "warn"])
+        .args(arguments)
+        .stdout(Stdio::piped())
+        .spawn()
+        .unwrap();
     let mut line = String::new();
     BufReader::new(child.stdout.take().unwrap())
         .read_line(&mut line)
         .unwrap();
-    let address = line
-        .trim()
-        .strip_prefix("listening on http://")
-        .unwrap()
-        .to_owned();
-    (child, address)
+    (child, line.trim().to_owned())
 }
 
 fn send(signal: &str, child: &Child) {
@@ -80,6 +78,51 @@ fn a_busy_port_is_said_in_one_line() {
 fn an_address_that_others_can_reach_is_refused() {
     let line = error_line(&run(&["--listen", "0.0.0.0:0"]));
     assert!(line.contains("--allow-insecure"), "{line}");
+    assert!(line.contains("neither TLS nor tokens"), "{line}");
+}
+
+#[test]
+fn a_certificate_that_cannot_be_used_is_named_in_one_line() {
+    let line = error_line(&run(&[
+        "--data-dir",
+        ":memory:",
+        "--listen",
+        "127.0.0.1:0",
+        "--log",
+        "error",
+        "--tls-cert",
+        "no-such.pem",
+        "--tls-key",
+        "no-key.pem",
+    ]));
+    assert!(line.contains("no-such.pem cannot be read"), "{line}");
+}
+
+#[test]
+fn with_a_certificate_the_address_is_one_of_https() {
+    let dir = tempfile::tempdir().unwrap();
+    let path = |name: &str| dir.path().join(name).to_str().unwrap().to_owned();
+    let names = vec!["localhost".to_owned()];
+    let certified = rcgen::generate_simple_self_signed(names).unwrap();
+    std::fs::write(path("cert.pem"), certified.cert.pem()).unwrap();
+    std::fs::write(path("key.pem"), certified.signing_key.serialize_pem()).unwrap();
+    let (cert, key) = (path("cert.pem"), path("key.pem"));
+    let (mut server, line) = start_with(&[
+        "--data-dir",
+        ":memory:",
+        "--tls-cert",
+        &cert,
+        "--tls-key",
+        &key,
+    ]);
+    assert!(
+        line.starts_with("listening on https://127.0.0.1:"),
+        "{line}"
+    );
+    // SIGHUP asks for new certificates; it ends nothing.
+    send("-HUP", &server);
+    send("-TERM", &server);
+    assert_eq!(server.wait().unwrap().code(), Some(0));
 }
 
 #[test]

@@ -66,7 +66,7 @@ const LAYERS: &[(&str, &[&str])] = &[
 ];
 
 /// Small modules at the root that every layer may name.
-const GROUND: &[&str] = &["clock", "executor", "fs", "name", "telemetry"];
+const GROUND: &[&str] = &["clock", "executor", "fs", "name", "reload", "telemetry"];
 
 /// What stands above the layers and joins them.
 const ROOF: &[&str] = &["config", "lib", "main", "server", "shutdown"];

@@ -29,9 +29,21 @@ pub struct Flags {
     /// Configuration file, see deploy/frontalis.toml
     #[arg(long, value_name = "FILE", env = "FRONTALIS_CONFIG")]
     pub config: Option<PathBuf>,
-    /// Accept an address other than loopback without TLS and authentication
+    /// Accept an address other than loopback without TLS and tokens
     #[arg(long)]
     pub allow_insecure: bool,
+    /// Certificate of the port, PEM; with it the port speaks TLS
+    #[arg(long, value_name = "FILE")]
+    pub tls_cert: Option<String>,
+    /// Private key of the certificate, PEM
+    #[arg(long, value_name = "FILE")]
+    pub tls_key: Option<String>,
+    /// Believe certificates of clients that these authorities issued, PEM
+    #[arg(long, value_name = "FILE")]
+    pub tls_client_ca: Option<String>,
+    /// Tokens that callers must present, see `frontalis token`
+    #[arg(long, value_name = "FILE")]
+    pub token_file: Option<String>,
     /// Filter of the log: error, warn, info, debug, trace, or by module [default: info]
     #[arg(long, value_name = "FILTER")]
     pub log: Option<String>,
@@ -116,8 +128,15 @@ fn typed(defaults: &Table, path: &[String], name: &str, text: &str) -> Result<Va
             .parse()
             .map(Value::Boolean)
             .map_err(|_| wanted("true or false")),
+        Value::Array(_) => Ok(Value::Array(listed(text))),
         _ => Err(unknown()),
     }
+}
+
+/// The entries of a list, which a variable separates by commas.
+fn listed(text: &str) -> Vec<Value> {
+    let entries = text.split(',').map(str::trim).filter(|it| !it.is_empty());
+    entries.map(|it| Value::String(it.to_owned())).collect()
 }
 
 fn put(table: &mut Table, path: &[String], value: Value) {
@@ -143,10 +162,15 @@ fn overlay_flags(table: &mut Table, flags: &Flags) {
         ("listen", &flags.listen),
         ("data_dir", &flags.data_dir),
         ("log", &flags.log),
+        ("token_file", &flags.token_file),
+        ("tls.cert", &flags.tls_cert),
+        ("tls.key", &flags.tls_key),
+        ("tls.client_ca", &flags.tls_client_ca),
     ];
     for (key, text) in texts {
         if let Some(text) = text {
-            table.insert(key.to_owned(), Value::String(text.clone()));
+            let path: Vec<String> = key.split('.').map(str::to_owned).collect();
+            put(table, &path, Value::String(text.clone()));
         }
     }
     if flags.allow_insecure {
@@ -234,6 +258,25 @@ mod tests {
             error.to_string(),
             "the environment variable FRONTALIS_LIMITS__SESSIONS must be a whole number"
         );
+    }
+
+    #[test]
+    fn a_list_is_separated_by_commas() {
+        let variable = ("FRONTALIS_HTTP__HOSTS", "stage.example, rig");
+        let config = with_file("", &[variable]).unwrap();
+        assert_eq!(config.http.hosts, ["stage.example", "rig"]);
+    }
+
+    #[test]
+    fn a_flag_reaches_a_table() {
+        let flags = Flags {
+            tls_cert: Some("cert.pem".to_owned()),
+            tls_key: Some("key.pem".to_owned()),
+            ..Flags::default()
+        };
+        let config = load(&flags, []).unwrap();
+        assert_eq!(config.tls.key, "key.pem");
+        assert!(config.tls.is_on());
     }
 
     #[test]

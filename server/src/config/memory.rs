@@ -13,6 +13,9 @@ const ACTOR_BYTES: u64 = 72 * MIB;
 /// Beside its buffers, a subscriber of every frame may hold so much (CONTRACTS D-20).
 const SUBSCRIBER_BYTES: u64 = 256 * KIB;
 
+/// Buffers of one TLS connection: a record of 16 KiB each way, what is deciphered of one, and the keys.
+const TLS_KIB: u64 = 56;
+
 /// Largest message of a call that does not publish, bytes.
 pub const SMALL_MESSAGE_BYTES: usize = 64 * 1024;
 
@@ -38,7 +41,8 @@ pub fn worst_case(config: &Config) -> Vec<MemoryItem> {
     let per_connection = transport
         .connection_window_kib
         .saturating_add(transport.header_list_kib)
-        .saturating_add(transport.send_buffer_kib);
+        .saturating_add(transport.send_buffer_kib)
+        .saturating_add(if config.tls.is_on() { TLS_KIB } else { 0 });
     // Every call is in the middle of its largest message.
     let messages = product(limits.publishers, product(limits.message_kib, KIB))
         .saturating_add(product(limits.calls, SMALL_MESSAGE_BYTES as u64));

@@ -3,9 +3,9 @@
 use super::Config;
 
 /// Key, value, least and most.
-pub(super) fn ranges(config: &Config) -> [(&'static str, u64, u64, u64); 30] {
+pub(super) fn ranges(config: &Config) -> Vec<(&'static str, u64, u64, u64)> {
     let (l, t) = (&config.limits, &config.transport);
-    [
+    vec![
         ("shutdown_grace_secs", config.shutdown_grace_secs, 1, 300),
         ("memory_budget_mib", config.memory_budget_mib, 64, 1 << 24),
         ("workers", config.workers, 1, 256),
@@ -67,10 +67,22 @@ pub(super) fn ranges(config: &Config) -> [(&'static str, u64, u64, u64); 30] {
             3_600,
         ),
         (
+            "transport.handshake_deadline_secs",
+            t.handshake_deadline_secs,
+            1,
+            60,
+        ),
+        (
             "transport.header_deadline_secs",
             t.header_deadline_secs,
             1,
             60,
+        ),
+        (
+            "transport.message_deadline_secs",
+            t.message_deadline_secs,
+            1,
+            600,
         ),
         (
             "transport.stream_window_kib",

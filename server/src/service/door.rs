@@ -1,5 +1,7 @@
 //! The one port's router: gRPC with health and reflection, plain HTTP, and one answer for everything else.
 
+use std::time::Duration;
+
 use axum::{Router, extract::Request, middleware, response::Response};
 use frontalis_proto::{
     FILE_DESCRIPTOR_SET,
@@ -15,20 +17,28 @@ use tower_http::catch_panic::CatchPanicLayer;
 
 use super::{
     calls::{self, Calls},
+    deadline,
     grpc::{
         actors::{ActorsGrpc, MAX_CHUNK_BYTES},
         capture::CaptureGrpc,
         curves::CurvesGrpc,
+        messages::{self, MessageRules},
+        reasons,
         server::ServerGrpc,
         sessions::SessionsGrpc,
         takes::TakesGrpc,
     },
     http::{self, Doors, GrpcPanic, grpc_only, unknown, with_instance},
+    panics,
 };
 use crate::{config::SMALL_MESSAGE_BYTES, telemetry::Metrics};
 
 /// A chunk and what is around it in its message, bytes.
 const CHUNK_MESSAGE_BYTES: usize = MAX_CHUNK_BYTES + 4 * 1024;
+
+/// How the paths of the services begin whose messages may be large.
+const ACTORS: &str = "/frontalis.v1.ActorService/";
+const CAPTURE: &str = "/frontalis.v1.CaptureService/";
 
 /// Names that the health service knows, and whether they serve: takes do not yet.
 const HEALTH: [(&str, bool); 3] = [
@@ -52,6 +62,8 @@ pub struct Services {
     pub server: ServerGrpc,
     /// Largest message of a publisher, bytes.
     pub max_message_bytes: usize,
+    /// A message must be whole within this time of its beginning.
+    pub message_deadline: Duration,
     /// How many calls may be in progress.
     pub calls: Calls,
 }
@@ -76,6 +88,14 @@ pub async fn router(doors: Doors) -> Result<(Router, HealthReporter), Reflection
             .register_encoded_file_descriptor_set(FILE_DESCRIPTOR_SET)
             .register_encoded_file_descriptor_set(tonic_health::pb::FILE_DESCRIPTOR_SET)
     };
+    let rules = MessageRules {
+        deadline: services.message_deadline,
+        sizes: vec![
+            (ACTORS, CHUNK_MESSAGE_BYTES),
+            (CAPTURE, services.max_message_bytes),
+        ],
+        other_bytes: SMALL_MESSAGE_BYTES,
+    };
     let actors =
         ActorServiceServer::new(services.actors).max_decoding_message_size(CHUNK_MESSAGE_BYTES);
     let sessions =
@@ -99,10 +119,29 @@ pub async fn router(doors: Doors) -> Result<(Router, HealthReporter), Reflection
         .prepare()
         .into_axum_router()
         .reset_fallback()
+        .layer(middleware::from_fn_with_state(rules, messages::whole))
         .layer(CatchPanicLayer::custom(GrpcPanic(metrics.clone())))
-        .layer(middleware::from_fn_with_state(services.calls, calls::admit))
+        .layer(middleware::map_response_with_state(
+            metrics.clone(),
+            panics::guard_grpc,
+        ))
+        .layer(middleware::map_response(reasons::complete))
+        .layer(middleware::from_fn(deadline::enforce))
+        .layer(middleware::from_fn_with_state(
+            services.calls.clone(),
+            calls::admit_grpc,
+        ))
         .layer(middleware::from_fn_with_state(metrics.clone(), grpc_only));
-    let router = http::router(doors)
+    let http = http::router(doors)
+        .layer(middleware::map_response_with_state(
+            metrics.clone(),
+            panics::guard_http,
+        ))
+        .layer(middleware::from_fn_with_state(
+            services.calls,
+            calls::admit_http,
+        ));
+    let router = http
         .merge(grpc)
         .fallback(move |request| count_unknown(metrics.clone(), request))
         .layer(middleware::from_fn(with_instance));

@@ -4,6 +4,8 @@ pub mod actors;
 pub mod capture;
 pub mod curves;
 mod ending;
+pub mod messages;
+pub mod reasons;
 pub(super) mod refusal;
 pub mod server;
 pub mod sessions;

@@ -1,40 +1,42 @@
-//! Plain HTTP on the same port: state and curves as JSON, health, metrics.
+//! Plain HTTP on the same port: every resource and action as JSON, health, metrics, and the description of it all.
 //!
-//! Everything here reads; what changes something goes through gRPC.
+//! Handlers turn a request into the message of a service and its answer into JSON; what is checked, allowed and done is
+//! the services' business, so that every door does the same.
 
-mod api;
+mod actors;
+mod call;
+mod curves;
 mod fallback;
 mod observe;
+mod openapi;
 mod problem;
-
-use std::time::Duration;
+mod query;
+mod server;
+mod sessions;
 
 use axum::{
     Router,
-    extract::Request,
+    extract::{Request, State},
     http::{HeaderValue, StatusCode, header},
     middleware::{self, Next},
     response::Response,
     routing::get,
 };
 use tower_http::{catch_panic::CatchPanicLayer, timeout::TimeoutLayer};
+use utoipa_axum::{router::OpenApiRouter, routes};
 
-use super::{door::Services, sessions::Sessions};
-use crate::{catalogue::Store, shutdown::Phases, telemetry::Metrics};
+use super::door::Services;
+use crate::{
+    shutdown::Phases,
+    telemetry::{Metrics, Protocol},
+};
 
 pub use fallback::{GrpcPanic, grpc_only, unknown};
-pub use problem::with_instance;
-
-/// A request must be answered within this time.
-const DEADLINE: Duration = Duration::from_secs(10);
+pub use problem::{Problem, with_instance};
 
 /// What the routes read from.
 #[derive(Clone)]
 pub struct Doors {
-    /// Actors.
-    pub store: Store,
-    /// Sessions and their curves.
-    pub sessions: Sessions,
     /// What every door opens.
     pub services: Services,
     /// Figures.
@@ -46,23 +48,48 @@ pub struct Doors {
 /// The routes of plain HTTP.
 pub fn router(doors: Doors) -> Router {
     let metrics = doors.metrics.clone();
+    let (api, _description) = api();
     Router::new()
         .route("/", get(observe::index))
         .route("/healthz", get(observe::healthz))
         .route("/readyz", get(observe::readyz))
         .route("/metrics", get(observe::metrics))
-        .route("/api/v1/actors", get(api::actors))
-        .route("/api/v1/sessions", get(api::sessions))
-        .route("/api/v1/sessions/{id}", get(api::session))
-        .route("/api/v1/sessions/{id}/curves", get(api::curves))
+        .layer(within_deadline())
+        .merge(api.layer(middleware::from_fn_with_state(metrics.clone(), count)))
         .method_not_allowed_fallback(fallback::method_not_allowed)
         .with_state(doors)
-        .layer(TimeoutLayer::with_status_code(
-            StatusCode::GATEWAY_TIMEOUT,
-            DEADLINE,
-        ))
         .layer(CatchPanicLayer::custom(fallback::HttpPanic(metrics)))
         .layer(middleware::from_fn(inert))
+}
+
+/// Every route under `/api/v1` with its description; a route cannot be here without one.
+fn api() -> (Router<Doors>, utoipa::openapi::OpenApi) {
+    let calls = OpenApiRouter::new()
+        .routes(routes!(server::get))
+        .routes(routes!(actors::list))
+        .routes(routes!(actors::get, actors::delete))
+        .routes(routes!(sessions::list, sessions::create))
+        .routes(routes!(sessions::get, sessions::update))
+        .routes(routes!(sessions::recenter))
+        .routes(routes!(sessions::end))
+        .routes(routes!(curves::read))
+        .layer(within_deadline());
+    // What may take longer has deadlines of its own.
+    let transfers = OpenApiRouter::new()
+        .routes(routes!(actors::import))
+        .routes(routes!(actors::model))
+        .routes(routes!(actors::package));
+    calls.merge(transfers).split_for_parts()
+}
+
+/// A call must be answered within a time.
+fn within_deadline() -> TimeoutLayer {
+    TimeoutLayer::with_status_code(StatusCode::GATEWAY_TIMEOUT, call::DEADLINE)
+}
+
+async fn count(State(metrics): State<Metrics>, request: Request, next: Next) -> Response {
+    metrics.request(Protocol::Http);
+    next.run(request).await
 }
 
 /// Whatever a browser is handed is data: not to be guessed at, kept, or framed.
@@ -78,7 +105,9 @@ async fn inert(request: Request, next: Next) -> Response {
         ),
     ];
     for (name, value) in fixed {
-        headers.insert(name, HeaderValue::from_static(value));
+        headers
+            .entry(name)
+            .or_insert(HeaderValue::from_static(value));
     }
     response
 }

@@ -104,10 +104,12 @@ async fn curves_over_http_name_their_run_and_refuse_another() {
     assert_eq!(status, 200, "{body}");
     let body = json(&body);
     assert_eq!(
-        (&body["run"], &body["newest_sequence"]),
-        (&1.into(), &0.into())
+        (&body["header"]["run"], body.get("newestSequence")),
+        // Zero is left out, and 64 bits are text, as the protobuf JSON mapping says.
+        (&"1".into(), None)
     );
-    assert_eq!(body["controls"].as_array().unwrap().len(), 16);
+    let controls = body["header"]["controls"].as_array().unwrap();
+    assert_eq!(controls.len(), 16);
     let (status, body) = stage.get("/api/v1/sessions/s/curves?run=9").await;
     let body = json(&body);
     assert_eq!(status, 416);
@@ -122,7 +124,7 @@ async fn curves_over_http_name_their_run_and_refuse_another() {
     );
     let (status, body) = stage.get("/api/v1/sessions/s").await;
     assert_eq!(status, 200);
-    assert_eq!(json(&body)["status"]["state"], "waiting");
+    assert_eq!(json(&body)["status"]["state"], "SESSION_STATE_WAITING");
 }
 
 #[tokio::test]

@@ -1,5 +1,6 @@
 //! `ActorService`: packages in, actors listed, packages out.
 
+mod convert;
 mod import;
 
 use std::{pin::Pin, sync::Arc};
@@ -7,7 +8,8 @@ use std::{pin::Pin, sync::Arc};
 use bytes::Bytes;
 use frontalis_proto::v1::{self, actor_service_server::ActorService};
 use futures::{Stream, StreamExt as _, stream};
-use tokio::sync::Semaphore;
+use http::Extensions;
+use tokio::sync::{OwnedSemaphorePermit, Semaphore};
 use tonic::{Code, Request, Response, Status, Streaming};
 
 use super::{refusal, status::refuse};
@@ -18,6 +20,8 @@ use crate::{
     name::ActorId,
     wire::{self, invalid::FieldError, page::Page},
 };
+
+pub use import::{Import, ImportStage, Progress};
 
 /// Largest chunk of a package, in either direction.
 pub const MAX_CHUNK_BYTES: usize = 1 << 20;
@@ -62,6 +66,16 @@ impl ActorsGrpc {
         }
     }
 
+    /// A place for one import, before any of it is read; every door asks here first.
+    pub(in crate::service) fn admit_import(
+        &self,
+        _extensions: &Extensions,
+    ) -> Result<OwnedSemaphorePermit, Status> {
+        Arc::clone(&self.imports)
+            .try_acquire_owned()
+            .map_err(|_| refusal::limit("IMPORTS", "limits.imports", self.max_imports))
+    }
+
     fn unix_now_nanos(&self) -> i64 {
         self.clock
             .now_nanos()
@@ -79,13 +93,9 @@ impl ActorService for ActorsGrpc {
         &self,
         request: Request<Streaming<v1::ImportActorRequest>>,
     ) -> Result<Response<v1::ImportActorResponse>, Status> {
-        let imports = Arc::clone(&self.imports);
-        let permit = imports
-            .try_acquire_owned()
-            .map_err(|_| refusal::limit("IMPORTS", "limits.imports", self.max_imports))?;
-        let imported = self.import(request.into_inner()).await;
-        drop(permit);
-        imported.map(Response::new)
+        let place = self.admit_import(request.extensions())?;
+        let imported = self.import(place, request.into_inner()).await?;
+        Ok(Response::new(imported))
     }
 
     type ExportActorStream = Responses<v1::ExportActorResponse>;

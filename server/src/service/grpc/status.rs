@@ -83,13 +83,20 @@ pub fn metadata_of(status: &Status) -> Vec<(String, String)> {
     info_of(status).map_or_else(Vec::new, |info| info.metadata.into_iter().collect())
 }
 
+/// After which time trying again makes sense, when the status says so.
+pub fn retry_after_of(status: &Status) -> Option<Duration> {
+    let info: RetryInfo = detail_of(status, "/google.rpc.RetryInfo")?;
+    info.retry_delay?.try_into().ok()
+}
+
 fn info_of(status: &Status) -> Option<ErrorInfo> {
+    detail_of(status, "/google.rpc.ErrorInfo")
+}
+
+fn detail_of<M: prost::Message + Default>(status: &Status, name: &str) -> Option<M> {
     let rpc = RpcStatus::decode(status.details()).ok()?;
-    let info = rpc
-        .details
-        .iter()
-        .find(|it| it.type_url.ends_with("/google.rpc.ErrorInfo"))?;
-    ErrorInfo::decode(info.value.as_slice()).ok()
+    let detail = rpc.details.iter().find(|it| it.type_url.ends_with(name))?;
+    M::decode(detail.value.as_slice()).ok()
 }
 
 fn packed(name: &str, message: &impl prost::Message) -> prost_types::Any {
@@ -149,5 +156,7 @@ mod tests {
         assert_eq!(status.code(), Code::OutOfRange);
         assert_eq!(status.message(), "the run is 4");
         assert_eq!(reason_of(&status).as_deref(), Some("NEW_RUN"));
+        assert_eq!(retry_after_of(&status), Some(Duration::from_millis(1500)));
+        assert_eq!(retry_after_of(&Status::internal("")), None);
     }
 }

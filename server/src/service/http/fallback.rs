@@ -42,13 +42,13 @@ pub(super) async fn method_not_allowed(request: Request) -> Response {
         );
         return grpc(status);
     }
-    let allowed = [(header::ALLOW, "GET, HEAD")];
-    let problem = Problem::new(
+    // The router adds what this path allows.
+    Problem::new(
         StatusCode::METHOD_NOT_ALLOWED,
         "HTTP_METHOD",
-        "this path is only read, with GET",
-    );
-    (allowed, problem).into_response()
+        "this path has other methods; the header allow names them",
+    )
+    .into_response()
 }
 
 /// Lets only gRPC pass to the gRPC services.

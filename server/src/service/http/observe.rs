@@ -21,9 +21,15 @@ Frontalis: facial motion capture in, muscle curves out.
 
 gRPC on this port: frontalis.v1, with reflection and health.
 
-GET /api/v1/actors?page_size=N&page_token=TOKEN
-GET /api/v1/sessions?page_size=N&page_token=TOKEN
-GET /api/v1/sessions/ID
+GET /api/v1/server
+GET /api/v1/actors?pageSize=N&pageToken=TOKEN
+GET, PUT, DELETE /api/v1/actors/ID
+GET /api/v1/actors/ID/model.glb?revision=N
+GET /api/v1/actors/ID/package?revision=N
+GET, POST /api/v1/sessions?pageSize=N&pageToken=TOKEN
+GET, PATCH /api/v1/sessions/ID
+POST /api/v1/sessions/ID/recenter
+POST /api/v1/sessions/ID/end
 GET /api/v1/sessions/ID/curves?run=RUN&after=SEQUENCE&limit=N
 GET /healthz
 GET /readyz
@@ -60,11 +66,14 @@ pub(super) async fn readyz(State(doors): State<Doors>) -> Response {
 pub(super) async fn metrics(State(doors): State<Doors>) -> impl IntoResponse {
     doors.metrics.request(Protocol::Http);
     let all: Vec<SessionStatus> = doors
+        .services
         .sessions
+        .0
         .handles()
         .iter()
         .map(SessionHandle::status)
         .collect();
+    doors.metrics.set_calls(doors.services.calls.in_progress());
     doors.metrics.set_ready(!doors.phases.is_draining());
     doors.metrics.set_sessions(&figures(&all));
     let kind = "application/openmetrics-text; version=1.0.0; charset=utf-8";

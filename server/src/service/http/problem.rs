@@ -2,20 +2,31 @@
 //!
 //! Both doors refuse alike: a problem is made from the gRPC status that the same call would get.
 
+use std::time::Duration;
+
 use axum::{
     Extension,
     extract::Request,
-    http::{HeaderValue, StatusCode, header},
+    http::{HeaderMap, HeaderValue, StatusCode, header},
     middleware::Next,
     response::{IntoResponse, Response},
 };
 use serde_json::{Map, Value, json};
 use tonic::{Code, Status};
 
-use crate::service::grpc::status::{metadata_of, reason_of};
+use crate::service::grpc::status::{metadata_of, reason_of, retry_after_of};
 
 /// Longest `instance`, in characters.
 const MAX_INSTANCE: usize = 256;
+
+/// Greatest whole number that every reader of JSON holds.
+const MAX_NUMBER: u64 = 1 << 53;
+
+/// Of all that is exhausted, these are the body itself; trying again will not help.
+const TOO_LARGE: [&str; 2] = ["BASIS_SIZE", "CHUNK_SIZE"];
+
+/// Of every problem document.
+pub const MEDIA_TYPE: &str = "application/problem+json";
 
 /// A refusal on its way out.
 #[derive(Clone, Debug)]
@@ -24,6 +35,7 @@ pub struct Problem {
     reason: String,
     detail: String,
     figures: Vec<(String, String)>,
+    retry_after: Option<Duration>,
 }
 
 impl Problem {
@@ -34,7 +46,23 @@ impl Problem {
             reason: reason.to_owned(),
             detail: detail.to_owned(),
             figures: Vec::new(),
+            retry_after: None,
         }
+    }
+
+    /// Adds a figure that a program can read.
+    #[must_use]
+    pub fn with(mut self, key: &str, value: &str) -> Self {
+        self.figures.push((key.to_owned(), value.to_owned()));
+        self
+    }
+
+    /// The document; `instance` is the path of the request.
+    pub fn document(&self, instance: &str) -> Value {
+        let mut body = self.body();
+        let instance: String = instance.chars().take(MAX_INSTANCE).collect();
+        body["instance"] = json!(instance);
+        body
     }
 
     fn body(&self) -> Value {
@@ -47,10 +75,9 @@ impl Problem {
         body.insert("status".into(), json!(self.status.as_u16()));
         body.insert("detail".into(), json!(self.detail));
         for (key, value) in &self.figures {
-            // Figures a program can read; a number stays a number.
-            let value = value
-                .parse::<u64>()
-                .map_or_else(|_| json!(value), |it| json!(it));
+            // Figures a program can read; a number stays a number as far as every reader of JSON holds it.
+            let number = value.parse::<u64>().ok().filter(|it| *it <= MAX_NUMBER);
+            let value = number.map_or_else(|| json!(value), |it| json!(it));
             body.entry(key.clone()).or_insert(value);
         }
         Value::Object(body)
@@ -59,9 +86,11 @@ impl Problem {
 
 impl From<Status> for Problem {
     fn from(status: Status) -> Self {
+        let reason = reason_of(&status).unwrap_or_else(|| "INTERNAL".to_owned());
         Self {
-            status: http_status(status.code()),
-            reason: reason_of(&status).unwrap_or_else(|| "INTERNAL".to_owned()),
+            status: http_status(status.code(), &reason),
+            retry_after: retry_after_of(&status),
+            reason,
             detail: status.message().to_owned(),
             figures: metadata_of(&status),
         }
@@ -71,24 +100,27 @@ impl From<Status> for Problem {
 impl IntoResponse for Problem {
     fn into_response(self) -> Response {
         let body = self.body().to_string();
-        let kind = HeaderValue::from_static("application/problem+json");
-        (
-            self.status,
-            [(header::CONTENT_TYPE, kind)],
-            Extension(self),
-            body,
-        )
-            .into_response()
+        let mut headers = HeaderMap::new();
+        headers.insert(header::CONTENT_TYPE, HeaderValue::from_static(MEDIA_TYPE));
+        if let Some(after) = self.retry_after {
+            // Whole seconds, rounded up: who waits less is refused again.
+            let secs = after.as_secs() + u64::from(after.subsec_nanos() > 0);
+            headers.insert(header::RETRY_AFTER, secs.into());
+        }
+        if self.status == StatusCode::UNAUTHORIZED {
+            let scheme = HeaderValue::from_static("Bearer");
+            headers.insert(header::WWW_AUTHENTICATE, scheme);
+        }
+        (self.status, headers, Extension(self), body).into_response()
     }
 }
 
 /// Writes the request's path into every problem as its `instance`.
 pub async fn with_instance(request: Request, next: Next) -> Response {
-    let instance: String = request.uri().path().chars().take(MAX_INSTANCE).collect();
+    let instance = request.uri().path().to_owned();
     let mut response = next.run(request).await;
     if let Some(problem) = response.extensions_mut().remove::<Problem>() {
-        let mut body = problem.body();
-        body["instance"] = json!(instance);
+        let body = problem.document(&instance);
         response.headers_mut().remove(header::CONTENT_LENGTH);
         *response.body_mut() = body.to_string().into();
     }
@@ -101,7 +133,10 @@ fn title(reason: &str) -> String {
 }
 
 /// The mapping of BAD_INPUT, "Status mapping".
-fn http_status(code: Code) -> StatusCode {
+fn http_status(code: Code, reason: &str) -> StatusCode {
+    if TOO_LARGE.contains(&reason) {
+        return StatusCode::PAYLOAD_TOO_LARGE;
+    }
     match code {
         Code::Ok => StatusCode::OK,
         Code::InvalidArgument => StatusCode::BAD_REQUEST,
@@ -138,6 +173,14 @@ mod tests {
         assert_eq!(body["title"], "new run");
         assert_eq!(body["status"], 416);
         assert_eq!(body["run"], 3);
+    }
+
+    #[test]
+    fn a_problem_says_in_whole_seconds_when_to_try_again() {
+        let limit = crate::service::grpc::refusal::limit("CALLS", "limits.calls", 8);
+        let answer = Problem::from(limit).into_response();
+        assert_eq!(answer.status(), StatusCode::TOO_MANY_REQUESTS);
+        assert_eq!(answer.headers()[header::RETRY_AFTER], "1");
     }
 
     #[test]

@@ -4,12 +4,15 @@
 
 use std::{sync::Arc, time::Duration};
 
+use bytes::Bytes;
 use frontalis_analysis::{
     face::actor::RankPolicy,
     format::actor_package::{self, PackageError, ReadActor},
     space::LengthUnit,
 };
 use frontalis_proto::v1;
+use futures::{Stream, StreamExt as _, TryStreamExt as _, stream};
+use tokio::sync::OwnedSemaphorePermit;
 use tonic::{Code, Status, Streaming};
 
 use super::{ActorsGrpc, MAX_CHUNK_BYTES};
@@ -28,58 +31,139 @@ const MESSAGE_DEADLINE: Duration = Duration::from_secs(10);
 /// First bytes of gzip, Zstandard, bzip2, xz.
 const COMPRESSED: [&[u8]; 4] = [b"\x1f\x8b", b"\x28\xb5\x2f\xfd", b"BZh", b"\xfd7zXZ"];
 
+/// How far an import has come.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Progress {
+    /// What is being done.
+    pub stage: ImportStage,
+    /// Bytes of the package that have come.
+    pub received_bytes: usize,
+}
+
+/// What an import is at.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ImportStage {
+    /// Bytes are coming.
+    #[default]
+    Receiving,
+    /// The package is read and checked.
+    Reading,
+    /// The revision is written.
+    Storing,
+}
+
+/// One import whose start was accepted; it holds its place until it is dropped.
+pub struct Import {
+    service: ActorsGrpc,
+    start: ImportStart,
+    package: Vec<u8>,
+    _place: OwnedSemaphorePermit,
+}
+
 impl ActorsGrpc {
     pub(super) async fn import(
         &self,
+        place: OwnedSemaphorePermit,
         mut stream: Streaming<v1::ImportActorRequest>,
     ) -> Result<v1::ImportActorResponse, Status> {
-        let first = next(&mut stream)
-            .await?
-            .ok_or_else(|| order("the stream has no message"))?;
+        let first = in_time(stream.message()).await?;
+        let first = first.ok_or_else(|| order("the stream has no message"))?;
         let start = first
             .start
             .ok_or_else(|| order("the first message must hold start"))?;
-        let start = ImportStart::try_from(start)?;
-        let mut package = Vec::new();
-        self.append(&mut package, &first.chunk)?;
-        while let Some(message) = next(&mut stream).await? {
-            if message.start.is_some() {
-                return Err(order("start comes once"));
-            }
-            self.append(&mut package, &message.chunk)?;
-        }
-        self.store_package(start, package).await
+        let import = self.begin_import(place, start)?;
+        let first = stream::iter([Ok(Bytes::from(first.chunk))]);
+        let rest = stream.map(|message| match message? {
+            v1::ImportActorRequest { start: Some(_), .. } => Err(order("start comes once")),
+            message => Ok(Bytes::from(message.chunk)),
+        });
+        import.run(first.chain(rest), |_progress| {}).await
     }
 
-    fn append(&self, package: &mut Vec<u8>, chunk: &[u8]) -> Result<(), Status> {
+    /// Checks what an import says of itself.
+    pub(in crate::service) fn begin_import(
+        &self,
+        place: OwnedSemaphorePermit,
+        start: v1::ImportActorStart,
+    ) -> Result<Import, Status> {
+        Ok(Import {
+            service: self.clone(),
+            start: ImportStart::try_from(start)?,
+            package: Vec::new(),
+            _place: place,
+        })
+    }
+}
+
+impl Import {
+    /// Refuses a package of `n_bytes` before any of it is read.
+    pub(in crate::service) fn check_size(&self, n_bytes: u64) -> Result<(), Status> {
+        match usize::try_from(n_bytes) {
+            Ok(n_bytes) if n_bytes <= self.service.max_package_bytes => Ok(()),
+            _ => Err(self.too_large()),
+        }
+    }
+
+    /// Takes the package's chunks and stores what they make. `progress` is told after every chunk and at every stage.
+    pub(in crate::service) async fn run<S>(
+        mut self,
+        mut chunks: S,
+        progress: impl Fn(Progress),
+    ) -> Result<v1::ImportActorResponse, Status>
+    where
+        S: Stream<Item = Result<Bytes, Status>> + Unpin,
+    {
+        while let Some(chunk) = in_time(chunks.try_next()).await? {
+            self.append(&chunk)?;
+            progress(self.progress(ImportStage::Receiving));
+        }
+        progress(self.progress(ImportStage::Reading));
+        let storing = self.progress(ImportStage::Storing);
+        self.store_package(|| progress(storing)).await
+    }
+
+    fn progress(&self, stage: ImportStage) -> Progress {
+        Progress {
+            stage,
+            received_bytes: self.package.len(),
+        }
+    }
+
+    fn append(&mut self, chunk: &[u8]) -> Result<(), Status> {
         if chunk.len() > MAX_CHUNK_BYTES {
             return Err(refusal::too_large("CHUNK_SIZE", "chunk", MAX_CHUNK_BYTES));
         }
-        if package.len() + chunk.len() > self.max_package_bytes {
-            return Err(refusal::too_large(
-                "BASIS_SIZE",
-                "limits.package_mib",
-                self.max_package_bytes,
-            ));
+        if self.package.len() + chunk.len() > self.service.max_package_bytes {
+            return Err(self.too_large());
         }
-        package.extend_from_slice(chunk);
-        if COMPRESSED.iter().any(|magic| package.starts_with(magic)) {
+        self.package.extend_from_slice(chunk);
+        if COMPRESSED
+            .iter()
+            .any(|magic| self.package.starts_with(magic))
+        {
             return Err(refusal::package(&PackageError::Compressed));
         }
         Ok(())
     }
 
-    async fn store_package(
-        &self,
-        start: ImportStart,
-        package: Vec<u8>,
-    ) -> Result<v1::ImportActorResponse, Status> {
+    fn too_large(&self) -> Status {
+        let limit = self.service.max_package_bytes;
+        refusal::too_large("BASIS_SIZE", "limits.package_mib", limit)
+    }
+
+    async fn store_package(self, storing: impl Fn()) -> Result<v1::ImportActorResponse, Status> {
+        let Self {
+            service,
+            start,
+            package,
+            _place: held,
+        } = self;
         let rank = if start.regularize {
             RankPolicy::Regularize
         } else {
             RankPolicy::Refuse
         };
-        let (read, package) = self
+        let (read, package) = service
             .workers
             .run(move || (actor_package::read(&package, rank), package))
             .await;
@@ -91,9 +175,14 @@ impl ActorsGrpc {
             layout,
             package,
         };
-        let added = self.store.add_revision(new, self.unix_now_nanos()).await?;
-        self.store
-            .keep_loaded(&added.actor, added.revision, &Arc::new(read.actor));
+        storing();
+        let now_nanos = service.unix_now_nanos();
+        let added = service.store.add_revision(new, now_nanos).await?;
+        let loaded = Arc::new(read.actor);
+        service
+            .store
+            .keep_loaded(&added.actor, added.revision, &loaded);
+        drop(held);
         tracing::info!(actor = %added.actor, revision = added.revision, "actor imported");
         Ok(v1::ImportActorResponse {
             actor: Some(wire::actor::actor(&added)),
@@ -118,10 +207,8 @@ fn unit_mismatch(declared: LengthUnit, found: LengthUnit) -> Status {
         .into_status()
 }
 
-async fn next(
-    stream: &mut Streaming<v1::ImportActorRequest>,
-) -> Result<Option<v1::ImportActorRequest>, Status> {
-    let in_time = tokio::time::timeout(MESSAGE_DEADLINE, stream.message()).await;
+async fn in_time<T>(next: impl Future<Output = Result<T, Status>>) -> Result<T, Status> {
+    let in_time = tokio::time::timeout(MESSAGE_DEADLINE, next).await;
     in_time.unwrap_or_else(|_| {
         let message = format!("no message for {} s", MESSAGE_DEADLINE.as_secs());
         Err(refuse(Code::DeadlineExceeded, "MESSAGE_DEADLINE", message))

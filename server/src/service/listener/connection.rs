@@ -1,0 +1,221 @@
+//! One connection from its first byte to its last: handshake, protocol, requests, end.
+
+use std::{future::Future, net::SocketAddr, pin::pin, time::Duration};
+
+use axum::{Router, body::Body, extract::ConnectInfo};
+use hyper::body::Incoming;
+use hyper_util::{
+    rt::{TokioExecutor, TokioIo, TokioTimer},
+    server::conn::auto,
+};
+use tokio::{
+    io::{AsyncRead, AsyncWrite},
+    net::TcpStream,
+};
+use tokio_util::task::TaskTracker;
+use tonic::transport::server::TcpConnectInfo;
+use tower::ServiceExt as _;
+
+use super::{
+    Listener, OpenConnection, PeerCertificate,
+    admission::Permit,
+    opening::Opening,
+    tls::{Handshake, Tls},
+};
+use crate::{config::Config, shutdown::Phases, telemetry::Metrics};
+
+/// Bytes of one HTTP/1 read buffer; headers beyond it are refused.
+const HTTP1_BUFFER_BYTES: usize = 64 * 1024;
+
+/// Streams that a peer may reset before they were accepted (S-9).
+const PENDING_RESETS: usize = 20;
+
+/// Streams that the server may reset because of a peer's errors (S-9).
+const LOCAL_ERROR_RESETS: usize = 1_024;
+
+/// What every connection is served with; cheap to clone.
+#[derive(Clone)]
+pub(super) struct Connections {
+    router: Router,
+    tls: Option<Tls>,
+    http: auto::Builder<TokioExecutor>,
+    handshake_deadline: Duration,
+    header_deadline: Duration,
+    metrics: Metrics,
+    phases: Phases,
+    tasks: TaskTracker,
+}
+
+/// What its requests know of a connection.
+#[derive(Clone)]
+struct About {
+    local: Option<SocketAddr>,
+    peer: SocketAddr,
+    certificate: Option<PeerCertificate>,
+    open: OpenConnection,
+}
+
+impl Connections {
+    pub(super) fn new(listener: &Listener, config: &Config) -> Self {
+        let transport = &config.transport;
+        Self {
+            router: listener.router.clone(),
+            tls: listener.tls.clone(),
+            http: http(config),
+            handshake_deadline: Duration::from_secs(transport.handshake_deadline_secs),
+            header_deadline: Duration::from_secs(transport.header_deadline_secs),
+            metrics: listener.metrics.clone(),
+            phases: listener.phases.clone(),
+            tasks: listener.tasks.clone(),
+        }
+    }
+
+    /// Serves a connection in a task of its own.
+    pub(super) fn spawn(&self, stream: TcpStream, peer: SocketAddr, permit: Permit) {
+        // Samples are small and late ones worthless: nothing may wait for more to send.
+        if let Err(error) = stream.set_nodelay(true) {
+            tracing::debug!(%error, "a connection was gone at once");
+            return;
+        }
+        let about = About {
+            local: stream.local_addr().ok(),
+            peer,
+            certificate: None,
+            open: OpenConnection::new(permit, self.tasks.token()),
+        };
+        let connections = self.clone();
+        self.tasks.spawn(async move {
+            match &connections.tls {
+                None => connections.serve(stream, about).await,
+                Some(tls) => connections.serve_tls(tls, stream, about).await,
+            }
+        });
+    }
+
+    async fn serve_tls(&self, tls: &Tls, stream: TcpStream, about: About) {
+        let shaken = tokio::select! {
+            shaken = tls.accept(stream, self.handshake_deadline) => shaken,
+            () = self.phases.closing.cancelled() => return,
+        };
+        match shaken {
+            Ok((stream, certificate)) => {
+                let about = About {
+                    certificate,
+                    ..about
+                };
+                self.serve(stream, about).await;
+            }
+            Err(why) => self.report(about.peer, &why),
+        }
+    }
+
+    fn report(&self, peer: SocketAddr, why: &Handshake) {
+        self.metrics.handshake_failed(why.kind());
+        match why {
+            Handshake::Certificate(why) => {
+                tracing::warn!(target: "audit", %peer, why, "a client's certificate was refused");
+            }
+            why => tracing::debug!(%peer, ?why, "a handshake came to nothing"),
+        }
+    }
+
+    async fn serve<S>(&self, stream: S, about: About)
+    where
+        S: AsyncRead + AsyncWrite + Unpin + Send + 'static,
+    {
+        let _open = about.open.clone();
+        let io = TokioIo::new(Opening::new(stream, self.header_deadline));
+        let service = service(self.router.clone(), about);
+        let connection = self.http.serve_connection_with_upgrades(io, service);
+        drive(connection.into_owned(), &self.phases).await;
+    }
+}
+
+/// Polls a connection to its end; when the server closes it is asked to end, when the server gives up it is dropped.
+async fn drive<I, S, B>(
+    connection: auto::UpgradeableConnection<'static, I, S, TokioExecutor>,
+    phases: &Phases,
+) where
+    I: hyper::rt::Read + hyper::rt::Write + Unpin + Send + 'static,
+    S: hyper::service::Service<http::Request<Incoming>, Response = http::Response<B>>
+        + Send
+        + 'static,
+    S::Error: Into<Box<dyn std::error::Error + Send + Sync>>,
+    S::Future: Send + 'static,
+    B: hyper::body::Body + Send + 'static,
+    B::Data: Send,
+    B::Error: Into<Box<dyn std::error::Error + Send + Sync>>,
+{
+    let mut connection = pin!(connection);
+    let polite = async {
+        tokio::select! {
+            ended = connection.as_mut() => ended,
+            () = phases.closing.cancelled() => {
+                connection.as_mut().graceful_shutdown();
+                connection.await
+            }
+        }
+    };
+    let ended = tokio::select! {
+        ended = polite => ended,
+        () = phases.cut.cancelled() => return,
+    };
+    if let Err(error) = ended {
+        tracing::debug!(%error, "a connection ended early");
+    }
+}
+
+/// Answers one connection's requests, each of which knows its peer.
+fn service(
+    router: Router,
+    about: About,
+) -> impl hyper::service::Service<
+    http::Request<Incoming>,
+    Response = http::Response<Body>,
+    Error = std::convert::Infallible,
+    Future = impl Future<Output = Result<http::Response<Body>, std::convert::Infallible>> + Send,
+> + Clone {
+    hyper::service::service_fn(move |mut request: http::Request<Incoming>| {
+        let About {
+            local,
+            peer,
+            certificate,
+            open,
+        } = about.clone();
+        let extensions = request.extensions_mut();
+        extensions.insert(TcpConnectInfo {
+            local_addr: local,
+            remote_addr: Some(peer),
+        });
+        extensions.insert(ConnectInfo(peer));
+        extensions.insert(open);
+        if let Some(certificate) = certificate {
+            extensions.insert(certificate);
+        }
+        router.clone().oneshot(request.map(Body::new))
+    })
+}
+
+fn http(config: &Config) -> auto::Builder<TokioExecutor> {
+    let transport = &config.transport;
+    let kib = |count: u64| u32::try_from(count.saturating_mul(1024)).unwrap_or(u32::MAX);
+    let mut builder = auto::Builder::new(TokioExecutor::new());
+    builder
+        .http1()
+        .timer(TokioTimer::new())
+        .header_read_timeout(Duration::from_secs(transport.header_deadline_secs))
+        .max_buf_size(HTTP1_BUFFER_BYTES);
+    builder
+        .http2()
+        .timer(TokioTimer::new())
+        .keep_alive_interval(Duration::from_secs(transport.keepalive_interval_secs))
+        .keep_alive_timeout(Duration::from_secs(transport.keepalive_timeout_secs))
+        .max_concurrent_streams(config.limits.streams_per_connection)
+        .initial_stream_window_size(kib(transport.stream_window_kib))
+        .initial_connection_window_size(kib(transport.connection_window_kib))
+        .max_send_buf_size(kib(transport.send_buffer_kib) as usize)
+        .max_header_list_size(kib(transport.header_list_kib))
+        .max_pending_accept_reset_streams(PENDING_RESETS)
+        .max_local_error_reset_streams(LOCAL_ERROR_RESETS);
+    builder
+}
