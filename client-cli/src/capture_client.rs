@@ -16,7 +16,7 @@ use std::{sync::Arc, time::Duration};
 
 use tokio::time::timeout;
 use tokio_util::task::AbortOnDropHandle;
-use tonic::Code;
+use tonic::{Code, transport::Channel};
 
 use self::{
     publication::{Publication, open},
@@ -25,7 +25,6 @@ use self::{
     shared::Shared,
 };
 use crate::{
-    connection::Channel,
     error::ClientError,
     proto::{Ingest, LengthUnit, MarkerFrame, PublishStart, PublishStarted},
 };

@@ -3,9 +3,7 @@
 mod cli;
 mod commands;
 mod json;
-mod login_file;
 mod measure;
-mod private_file;
 mod terminal;
 
 use std::{io, process::ExitCode};
@@ -13,7 +11,7 @@ use std::{io, process::ExitCode};
 use clap::Parser as _;
 use frontalis_client::error::ClientError;
 
-use crate::{cli::Cli, commands::Context};
+use crate::cli::Cli;
 
 #[tokio::main]
 async fn main() -> ExitCode {
@@ -24,13 +22,13 @@ async fn main() -> ExitCode {
         .with_env_filter(filter)
         .with_writer(io::stderr)
         .init();
-    let context = Context::new(cli.json, cli.connection);
-    match commands::run(&context, cli.command).await {
+    let json = cli.json;
+    match commands::run(cli).await {
         Ok(code) => code,
         // The reader of a pipe had enough, as with `| head`.
         Err(error) if is_broken_pipe(&error) => ExitCode::SUCCESS,
         Err(error) => {
-            report(&context, &error).await;
+            report(&error, json);
             ExitCode::FAILURE
         }
     }
@@ -44,16 +42,12 @@ fn is_broken_pipe(error: &anyhow::Error) -> bool {
 }
 
 /// Says what failed, where, and what can be done about it.
-async fn report(context: &Context, error: &anyhow::Error) {
+fn report(error: &anyhow::Error, json: bool) {
     let refusal = error
         .chain()
         .find_map(|it| it.downcast_ref::<ClientError>());
-    let advice = match context.advice(refusal).await {
-        None => json::advice(error, refusal).map(str::to_owned),
-        found => found,
-    };
-    if context.json {
-        eprintln!("{}", json::error(error, refusal, advice.as_deref()));
+    if json {
+        eprintln!("{}", json::error(error, refusal));
         return;
     }
     eprintln!("error: {error:#}");
@@ -65,7 +59,7 @@ async fn report(context: &Context, error: &anyhow::Error) {
             eprintln!("  the server asks to wait {:.1} s", wait.as_secs_f64());
         }
     }
-    if let Some(advice) = advice {
+    if let Some(advice) = json::advice(error, refusal) {
         eprintln!("  what to do: {advice}");
     }
 }

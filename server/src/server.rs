@@ -23,6 +23,7 @@ use crate::{
             server::{Protection, ServerGrpc},
             sessions::SessionsGrpc,
         },
+        guard::Guard,
         http::Doors,
         keeper::{self, EVENT_CAPACITY, Keeper},
         listener::{
@@ -141,7 +142,7 @@ pub async fn run(
         metrics: metrics.clone(),
         phases: phases.clone(),
     };
-    let (router, health) = door::router(doors).await?;
+    let (router, health) = door::router(doors, Guard::new(&config, tls.clone())).await?;
 
     let drained = CancellationToken::new();
     let upkeep = TaskTracker::new();

@@ -5,6 +5,7 @@ pub mod calls;
 pub mod deadline;
 pub mod door;
 pub mod grpc;
+pub mod guard;
 pub mod http;
 pub mod keeper;
 pub mod listener;

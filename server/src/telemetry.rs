@@ -257,6 +257,11 @@ impl Metrics {
         self.0.insecure.set(insecure.into());
     }
 
+    /// As [`Metrics::set_insecure`] was told.
+    pub fn is_insecure(&self) -> bool {
+        self.0.insecure.get() != 0
+    }
+
     /// The worst case computed from the limits.
     pub fn set_worst_case_bytes(&self, bytes: u64) {
         self.0.worst_case_bytes.set(bytes);

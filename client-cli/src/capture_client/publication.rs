@@ -7,12 +7,11 @@ use tokio::{
     time::{MissedTickBehavior, interval, sleep, timeout},
 };
 use tokio_stream::wrappers::ReceiverStream;
-use tonic::{Code, Streaming};
+use tonic::{Code, Streaming, transport::Channel};
 
 use super::{CaptureSettings, shared::Shared};
 use crate::{
     backoff::Backoff,
-    connection::Channel,
     error::ClientError,
     proto::{
         Ingest, PublishMarkersRequest, PublishResponse, PublishStart,

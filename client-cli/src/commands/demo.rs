@@ -11,7 +11,6 @@ use clap::Args;
 use frontalis_analysis::{face::actor::Actor, synthesis::reference_face};
 use frontalis_client::{
     capture_client::{CaptureClient, Published},
-    connection::Channel,
     curve_client::{CurveClient, CurveSettings, StartAt, Wanted},
     error::ClientError,
     proto,
@@ -20,7 +19,7 @@ use frontalis_client::{
 use proto::session_service_client::SessionServiceClient;
 use tokio::time::{MissedTickBehavior, interval, timeout};
 use tokio_util::{sync::CancellationToken, task::AbortOnDropHandle};
-use tonic::Code;
+use tonic::{Code, transport::Channel};
 
 use self::{
     scoreboard::{Scoreboard, Summary},

@@ -8,12 +8,11 @@ use tokio::{
     time::{sleep, timeout},
 };
 use tokio_stream::wrappers::ReceiverStream;
-use tonic::{Code, Streaming};
+use tonic::{Code, Streaming, transport::Channel};
 
 use super::{CurveEvent, CurveSettings, StartAt, Wanted, position::Position};
 use crate::{
     backoff::Backoff,
-    connection::Channel,
     error::ClientError,
     proto::{
         Delivery, SubscribeRequest, SubscribeResponse, SubscribeStart,

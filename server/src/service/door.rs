@@ -28,6 +28,7 @@ use super::{
         sessions::SessionsGrpc,
         takes::TakesGrpc,
     },
+    guard::{self, Guard},
     http::{self, Doors, GrpcPanic, grpc_only, unknown, with_instance},
     panics,
 };
@@ -73,12 +74,15 @@ pub struct Services {
 #[error("the descriptors of the protocol cannot be served")]
 pub struct ReflectionError(#[from] tonic_reflection::server::Error);
 
-/// Joins both doors. The reporter tells the health service when serving ends.
+/// Joins both doors behind the guard. The reporter tells the health service when serving ends.
 ///
 /// # Errors
 ///
 /// When the descriptors in the binary are broken.
-pub async fn router(doors: Doors) -> Result<(Router, HealthReporter), ReflectionError> {
+pub async fn router(
+    doors: Doors,
+    guard: Guard,
+) -> Result<(Router, HealthReporter), ReflectionError> {
     let services = doors.services.clone();
     let metrics = doors.metrics.clone();
     let (reporter, health) = tonic_health::server::health_reporter();
@@ -144,6 +148,7 @@ pub async fn router(doors: Doors) -> Result<(Router, HealthReporter), Reflection
     let router = http
         .merge(grpc)
         .fallback(move |request| count_unknown(metrics.clone(), request))
+        .layer(middleware::from_fn_with_state(guard, guard::check))
         .layer(middleware::from_fn(with_instance));
     Ok((router, reporter))
 }

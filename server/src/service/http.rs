@@ -17,7 +17,7 @@ mod sessions;
 use axum::{
     Router,
     extract::{Request, State},
-    http::{HeaderValue, StatusCode, header},
+    http::StatusCode,
     middleware::{self, Next},
     response::Response,
     routing::get,
@@ -59,7 +59,6 @@ pub fn router(doors: Doors) -> Router {
         .method_not_allowed_fallback(fallback::method_not_allowed)
         .with_state(doors)
         .layer(CatchPanicLayer::custom(fallback::HttpPanic(metrics)))
-        .layer(middleware::from_fn(inert))
 }
 
 /// Every route under `/api/v1` with its description; a route cannot be here without one.
@@ -90,24 +89,4 @@ fn within_deadline() -> TimeoutLayer {
 async fn count(State(metrics): State<Metrics>, request: Request, next: Next) -> Response {
     metrics.request(Protocol::Http);
     next.run(request).await
-}
-
-/// Whatever a browser is handed is data: not to be guessed at, kept, or framed.
-async fn inert(request: Request, next: Next) -> Response {
-    let mut response = next.run(request).await;
-    let headers = response.headers_mut();
-    let fixed = [
-        (header::X_CONTENT_TYPE_OPTIONS, "nosniff"),
-        (header::CACHE_CONTROL, "no-store"),
-        (
-            header::CONTENT_SECURITY_POLICY,
-            "default-src 'none'; frame-ancestors 'none'",
-        ),
-    ];
-    for (name, value) in fixed {
-        headers
-            .entry(name)
-            .or_insert(HeaderValue::from_static(value));
-    }
-    response
 }

@@ -147,3 +147,24 @@ async fn a_query_that_cannot_be_read_is_a_problem() {
     assert_eq!(status, 404);
     assert!(body.contains("urn:frontalis:problem:ROUTE"), "{body}");
 }
+
+#[tokio::test]
+async fn a_port_that_others_can_reach_unprotected_is_called_insecure_wherever_one_looks() {
+    let exposed = Stage::with(|config| {
+        config.listen = ([0, 0, 0, 0], 0).into();
+        config.allow_insecure = true;
+    })
+    .await;
+    let index = exposed.get("/").await.1;
+    assert!(index.contains("INSECURE"), "{index}");
+    let metrics = exposed.get("/metrics").await.1;
+    assert!(metrics.contains("frontalis_insecure 1\n"), "{metrics}");
+    let server = exposed.get("/api/v1/server").await.1;
+    assert!(server.contains("\"insecure\":true"), "{server}");
+
+    let local = Stage::in_memory().await;
+    let index = local.get("/").await.1;
+    assert!(!index.contains("INSECURE"), "{index}");
+    let metrics = local.get("/metrics").await.1;
+    assert!(metrics.contains("frontalis_insecure 0\n"), "{metrics}");
+}

@@ -45,8 +45,13 @@ const STATES: [SessionState; 6] = [
     SessionState::Failed,
 ];
 
-pub(super) async fn index() -> &'static str {
-    INDEX
+pub(super) async fn index(State(doors): State<Doors>) -> String {
+    let warning = if doors.metrics.is_insecure() {
+        "\nINSECURE: others can reach this port, without TLS or without tokens.\n"
+    } else {
+        ""
+    };
+    format!("{INDEX}{warning}")
 }
 
 /// Live: the runtime answers.

@@ -1,3 +1,5 @@
+//! Files that fit, files that do not, and files that change.
+
 use std::{fs, path::Path};
 
 use rcgen::{CertifiedKey, generate_simple_self_signed};
