@@ -16,7 +16,7 @@ use std::{sync::Arc, time::Duration};
 
 use tokio::time::timeout;
 use tokio_util::task::AbortOnDropHandle;
-use tonic::{Code, transport::Channel};
+use tonic::Code;
 
 use self::{
     publication::{Publication, open},
@@ -25,6 +25,7 @@ use self::{
     shared::Shared,
 };
 use crate::{
+    connection::Channel,
     error::ClientError,
     proto::{Ingest, LengthUnit, MarkerFrame, PublishStart, PublishStarted},
 };

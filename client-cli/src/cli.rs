@@ -1,20 +1,28 @@
 //! What can be typed after `frontalis`.
 
 use clap::{Parser, Subcommand};
-use frontalis_client::connection::DEFAULT_SERVER;
 
 use crate::commands::{
-    actor::ActorCommand, completions::CompletionsArgs, demo::DemoArgs, publish::PublishArgs,
-    session::SessionCommand, simulate::SimulateArgs, solve::SolveArgs, watch::WatchArgs,
+    ConnectionArgs,
+    actor::ActorCommand,
+    completions::CompletionsArgs,
+    demo::DemoArgs,
+    login::{LoginArgs, LogoutArgs},
+    publish::PublishArgs,
+    server::ServerArgs,
+    session::SessionCommand,
+    simulate::SimulateArgs,
+    solve::SolveArgs,
+    token::TokenCommand,
+    watch::WatchArgs,
 };
 
 /// Facial motion capture over the network: markers in, muscle curves out.
 #[derive(Debug, Parser)]
 #[command(name = "frontalis", version, after_help = EXAMPLES, max_term_width = 110)]
 pub struct Cli {
-    /// Address of the server
-    #[arg(long, global = true, help_heading = "Everywhere", value_name = "URL", env = "FRONTALIS_SERVER", default_value = DEFAULT_SERVER)]
-    pub server: String,
+    #[command(flatten)]
+    pub connection: ConnectionArgs,
 
     /// Answer in JSON instead of tables and bars
     #[arg(long, global = true, help_heading = "Everywhere")]
@@ -52,6 +60,16 @@ pub enum Command {
     Simulate(SimulateArgs),
     /// Start a server and a simulated capture, and show the curves
     Demo(DemoArgs),
+    /// Check a token with a server and keep it for this user
+    Login(LoginArgs),
+    /// Forget the token of a server
+    Logout(LogoutArgs),
+    /// Show the server: version, TLS, tokens, and who you are to it
+    #[command(visible_alias = "status")]
+    Server(ServerArgs),
+    /// Make, list and take back the tokens of a server, on its own machine
+    #[command(subcommand)]
+    Token(TokenCommand),
     /// Print the completion script of a shell
     Completions(CompletionsArgs),
 }
@@ -92,6 +110,14 @@ mod tests {
             "frontalis solve take.trc --actor face.zip --regions split --renumber --csv",
             "frontalis simulate --actor reference --session take-1 --rate 60 --seconds 10 --cameras 5 --pixel-noise 0.3 --misses 0.03 --seed 7 --truth truth.csv",
             "frontalis demo --seconds 10",
+            "frontalis login --server https://stage:7400 --ca-cert ca.pem",
+            "frontalis logout --all",
+            "frontalis server --json --token-file token",
+            "frontalis status --client-cert me.pem --client-key me.key",
+            "frontalis token create --token-file tokens.toml --name StageA --role publisher --sessions stage-a-*,desk-1 --expires 90d",
+            "frontalis token create --token-file tokens.toml --name Anna --role operator --images",
+            "frontalis token list --token-file tokens.toml --json",
+            "frontalis token revoke t-5f0c2a91 --token-file tokens.toml --yes",
             "frontalis completions bash",
         ] {
             if let Err(error) = parse(line) {
@@ -118,6 +144,10 @@ mod tests {
             "frontalis simulate --session s --cameras 1",
             "frontalis watch take-1 --from-start",
             "frontalis watch take-1 --csv",
+            "frontalis token list",
+            "frontalis token create --token-file f --name n --role admin",
+            "frontalis token create --token-file f --name n --role viewer --sessions A/B",
+            "frontalis token create --token-file f --name n --role operator --expires tomorrow",
         ] {
             let error = parse(line).expect_err(line);
             assert_eq!(error.exit_code(), 2, "{line}");

@@ -10,10 +10,10 @@ mod subscription;
 use std::time::Duration;
 
 use futures::{Stream, StreamExt as _, stream::BoxStream};
-use tonic::transport::Channel;
 
 use self::subscription::Subscription;
 use crate::{
+    connection::Channel,
     error::ClientError,
     proto::{ControlSpace, CurveEnd, CurveHeader, CurveSample, Gap, StreamState},
 };

@@ -5,9 +5,11 @@
 
 mod details;
 
-use std::{collections::BTreeMap, time::Duration};
+use std::{collections::BTreeMap, error::Error as _, time::Duration};
 
 use tonic::Code;
+
+use crate::connection::failure::{self, Lasting};
 
 /// A call or stream that failed.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -15,7 +17,8 @@ use tonic::Code;
 pub struct ClientError {
     /// The gRPC status code.
     pub code: Code,
-    /// The server's own name for the refusal: `SESSION_OWNED`, `UNITS_SUSPECT`. Absent when the transport failed.
+    /// The server's own name for the refusal: `SESSION_OWNED`, `UNITS_SUSPECT`; or why no connection can be made until
+    /// somebody changes something: `TLS_UNTRUSTED`, `TLS_NAME`. Absent when the transport failed.
     pub reason: Option<String>,
     /// What happened, in the server's words.
     pub message: String,
@@ -60,11 +63,11 @@ impl ClientError {
     pub fn advice(&self) -> Option<&'static str> {
         match self.reason.as_deref() {
             Some("NAME") => self.advice_on_name(),
-            Some(reason) => advice_on(reason),
+            Some(reason) => advice_on(reason).or_else(|| advice_on_code(self.code)),
             None if self.code == Code::Unavailable => {
                 Some("check that the server runs and that --server names its address")
             }
-            None => None,
+            None => advice_on_code(self.code),
         }
     }
 
@@ -80,6 +83,19 @@ impl ClientError {
             _ => None,
         }
     }
+}
+
+/// What a person can do about every refusal of this code.
+fn advice_on_code(code: Code) -> Option<&'static str> {
+    Some(match code {
+        Code::Unauthenticated => {
+            "the token is missing, wrong, expired or revoked: `frontalis login`, --token-file FILE or FRONTALIS_TOKEN give another"
+        }
+        Code::PermissionDenied => {
+            "your token does not allow this: `frontalis server` shows your role and sessions, an operator can make another token"
+        }
+        _ => return None,
+    })
 }
 
 /// What a person can do about a refusal, a rejected frame or a failed alignment of this reason.
@@ -122,6 +138,15 @@ pub fn advice_on(reason: &str) -> Option<&'static str> {
             "close another subscriber (`frontalis session show ID` lists them), or raise the limit"
         }
         "SUBSCRIBER_LAGGED" => "read faster, or watch without --every-frame",
+        failure::UNTRUSTED => "--ca-cert FILE names the authority that issued the certificate",
+        failure::NAME => "--server has to use a name or address that the certificate holds",
+        failure::EXPIRED => "the certificate needs renewal, or a clock is wrong",
+        failure::NOT_SPOKEN => {
+            "--server with http:// instead of https://, if the server has no TLS"
+        }
+        failure::CLIENT_CERTIFICATE => {
+            "--client-cert FILE and --client-key FILE give a certificate that the server trusts"
+        }
         "DISK_LOW" => "free disk space on the server",
         _ => return None,
     })
@@ -129,25 +154,52 @@ pub fn advice_on(reason: &str) -> Option<&'static str> {
 
 impl From<tonic::Status> for ClientError {
     fn from(status: tonic::Status) -> Self {
+        if status.details().is_empty()
+            && let Some(lasting) = failure::lasting(&status)
+        {
+            return lasting.into();
+        }
         let details = details::decode(status.details());
         Self {
             code: status.code(),
             reason: details.reason,
-            message: match status.message() {
-                "" => status.code().description().to_owned(),
-                message => message.to_owned(),
-            },
+            message: message_of(&status),
             metadata: details.metadata,
             retry_after: details.retry_after,
         }
     }
 }
 
+/// The server's words; of a failed transport what lies below it.
+fn message_of(status: &tonic::Status) -> String {
+    match (status.message(), status.source()) {
+        ("", None) => status.code().description().to_owned(),
+        ("" | "transport error", Some(cause)) => transport_text(cause),
+        (message, _) => message.to_owned(),
+    }
+}
+
+fn transport_text(error: &dyn std::error::Error) -> String {
+    let text = chain(error);
+    text.strip_prefix("transport error: ")
+        .map_or(text.clone(), str::to_owned)
+}
+
 impl From<tonic::transport::Error> for ClientError {
     fn from(error: tonic::transport::Error) -> Self {
-        let text = chain(&error);
-        let text = text.strip_prefix("transport error: ").unwrap_or(&text);
-        Self::local(Code::Unavailable, text)
+        if let Some(lasting) = failure::lasting(&error) {
+            return lasting.into();
+        }
+        Self::local(Code::Unavailable, transport_text(&error))
+    }
+}
+
+impl From<Lasting> for ClientError {
+    fn from(lasting: Lasting) -> Self {
+        Self {
+            reason: Some(lasting.reason.to_owned()),
+            ..Self::local(Code::FailedPrecondition, lasting.message)
+        }
     }
 }
 

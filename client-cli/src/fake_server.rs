@@ -11,14 +11,17 @@ use tokio::{io::DuplexStream, sync::mpsc};
 use tokio_stream::{StreamExt as _, wrappers::ReceiverStream};
 use tonic::{
     Request, Response, Status, Streaming,
-    transport::{Channel, Endpoint, Server},
+    transport::{Endpoint, Server},
 };
 
-use crate::proto::{
-    Ingest, PublishImagesRequest, PublishMarkersRequest, PublishResponse, PublishStarted,
-    RejectedFrame, SubscribeRequest, SubscribeResponse, SubscribeStart,
-    capture_service_server::{CaptureService, CaptureServiceServer},
-    curve_service_server::{CurveService, CurveServiceServer},
+use crate::{
+    connection::{Bearer, Channel},
+    proto::{
+        Ingest, PublishImagesRequest, PublishMarkersRequest, PublishResponse, PublishStarted,
+        RejectedFrame, SubscribeRequest, SubscribeResponse, SubscribeStart,
+        capture_service_server::{CaptureService, CaptureServiceServer},
+        curve_service_server::{CurveService, CurveServiceServer},
+    },
 };
 
 type Responses<T> = ReceiverStream<Result<T, Status>>;
@@ -97,8 +100,8 @@ impl FakeServer {
             .add_service(CurveServiceServer::new(self.clone()))
             .serve_with_incoming(ReceiverStream::new(accepted));
         tokio::spawn(serving);
-        Endpoint::from_static("http://fake").connect_with_connector_lazy(tower::service_fn(
-            move |_| {
+        let channel = Endpoint::from_static("http://fake").connect_with_connector_lazy(
+            tower::service_fn(move |_| {
                 let connections = connections.clone();
                 async move {
                     let (ours, theirs) = tokio::io::duplex(1 << 16);
@@ -108,8 +111,9 @@ impl FakeServer {
                         .map_err(io::Error::other)?;
                     Ok::<_, io::Error>(TokioIo::new(ours))
                 }
-            },
-        ))
+            }),
+        );
+        Channel::new(channel, Bearer::new(None))
     }
 
     /// Takes one frame; false when the script breaks the stream now.

@@ -3,7 +3,9 @@
 mod cli;
 mod commands;
 mod json;
+mod login_file;
 mod measure;
+mod private_file;
 mod terminal;
 
 use std::{io, process::ExitCode};
@@ -11,7 +13,7 @@ use std::{io, process::ExitCode};
 use clap::Parser as _;
 use frontalis_client::error::ClientError;
 
-use crate::cli::Cli;
+use crate::{cli::Cli, commands::Context};
 
 #[tokio::main]
 async fn main() -> ExitCode {
@@ -22,13 +24,13 @@ async fn main() -> ExitCode {
         .with_env_filter(filter)
         .with_writer(io::stderr)
         .init();
-    let json = cli.json;
-    match commands::run(cli).await {
+    let context = Context::new(cli.json, cli.connection);
+    match commands::run(&context, cli.command).await {
         Ok(code) => code,
         // The reader of a pipe had enough, as with `| head`.
         Err(error) if is_broken_pipe(&error) => ExitCode::SUCCESS,
         Err(error) => {
-            report(&error, json);
+            report(&context, &error).await;
             ExitCode::FAILURE
         }
     }
@@ -42,12 +44,16 @@ fn is_broken_pipe(error: &anyhow::Error) -> bool {
 }
 
 /// Says what failed, where, and what can be done about it.
-fn report(error: &anyhow::Error, json: bool) {
+async fn report(context: &Context, error: &anyhow::Error) {
     let refusal = error
         .chain()
         .find_map(|it| it.downcast_ref::<ClientError>());
-    if json {
-        eprintln!("{}", json::error(error, refusal));
+    let advice = match context.advice(refusal).await {
+        None => json::advice(error, refusal).map(str::to_owned),
+        found => found,
+    };
+    if context.json {
+        eprintln!("{}", json::error(error, refusal, advice.as_deref()));
         return;
     }
     eprintln!("error: {error:#}");
@@ -59,7 +65,7 @@ fn report(error: &anyhow::Error, json: bool) {
             eprintln!("  the server asks to wait {:.1} s", wait.as_secs_f64());
         }
     }
-    if let Some(advice) = json::advice(error, refusal) {
+    if let Some(advice) = advice {
         eprintln!("  what to do: {advice}");
     }
 }

@@ -7,11 +7,12 @@ use tokio::{
     time::{MissedTickBehavior, interval, sleep, timeout},
 };
 use tokio_stream::wrappers::ReceiverStream;
-use tonic::{Code, Streaming, transport::Channel};
+use tonic::{Code, Streaming};
 
 use super::{CaptureSettings, shared::Shared};
 use crate::{
     backoff::Backoff,
+    connection::Channel,
     error::ClientError,
     proto::{
         Ingest, PublishMarkersRequest, PublishResponse, PublishStart,

@@ -7,16 +7,12 @@ use std::{fs, path::PathBuf, process::ExitCode};
 use anyhow::{Context as _, bail};
 use clap::{Args, Subcommand};
 use frontalis_analysis::synthesis::reference_face;
-use frontalis_client::{error::ClientError, proto};
+use frontalis_client::{connection::Channel, error::ClientError, proto};
 use proto::actor_service_client::ActorServiceClient;
-use tonic::transport::Channel;
 
 pub use self::package::{PackageForm, fetch, import, read as read_package};
 use super::{Context, actor_name, names::new_actor_id, short_id};
-use crate::{
-    json,
-    terminal::{self, say, tables},
-};
+use crate::terminal::{self, say, tables};
 
 /// Actors listed by one call.
 const PAGE_SIZE: u32 = 200;
@@ -119,13 +115,11 @@ async fn import_file(context: &Context, args: ImportArgs) -> anyhow::Result<()> 
     let imported = import(context.connect().await?, start, bytes)
         .await
         .with_context(|| format!("the package {} was not imported", args.package.display()))?;
-    let actor = imported.actor.unwrap_or_default();
     if context.json {
-        let mut value = json::actor(&actor);
-        value["warnings"] = serde_json::json!(imported.warnings);
-        say(value)?;
+        say(serde_json::to_value(&imported)?)?;
         return Ok(());
     }
+    let actor = imported.actor.unwrap_or_default();
     for warning in &imported.warnings {
         eprintln!("warning: {warning}");
     }
@@ -161,8 +155,11 @@ async fn list(context: &Context) -> anyhow::Result<()> {
         }
     }
     if context.json {
-        let actors: Vec<_> = actors.iter().map(json::actor).collect();
-        say(serde_json::json!({ "actors": actors }))?;
+        let all = proto::ListActorsResponse {
+            actors,
+            next_page_token: String::new(),
+        };
+        say(serde_json::to_value(all)?)?;
     } else {
         say(tables::actors(&actors))?;
     }
@@ -183,7 +180,7 @@ async fn show(context: &Context, args: &ShowArgs) -> anyhow::Result<()> {
         .await
         .with_context(|| format!("cannot show actor {}", args.id))?;
     if context.json {
-        say(json::actor(&actor))?;
+        say(serde_json::to_value(&actor)?)?;
     } else {
         say(tables::actor(&actor))?;
     }

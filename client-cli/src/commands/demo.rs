@@ -11,6 +11,7 @@ use clap::Args;
 use frontalis_analysis::{face::actor::Actor, synthesis::reference_face};
 use frontalis_client::{
     capture_client::{CaptureClient, Published},
+    connection::Channel,
     curve_client::{CurveClient, CurveSettings, StartAt, Wanted},
     error::ClientError,
     proto,
@@ -19,7 +20,7 @@ use frontalis_client::{
 use proto::session_service_client::SessionServiceClient;
 use tokio::time::{MissedTickBehavior, interval, timeout};
 use tokio_util::{sync::CancellationToken, task::AbortOnDropHandle};
-use tonic::{Code, transport::Channel};
+use tonic::Code;
 
 use self::{
     scoreboard::{Scoreboard, Summary},

@@ -3,9 +3,8 @@
 //! A marker that the actor does not have is recorded and not solved; one that the capture does not have, or that the
 //! neutral frames never showed, gives no evidence. Neither stops a capture, so both are said.
 
-use frontalis_client::{error::ClientError, proto};
+use frontalis_client::{connection::Channel, error::ClientError, proto};
 use proto::session_service_client::SessionServiceClient;
-use tonic::transport::Channel;
 
 use super::{actor, short_id};
 

@@ -21,7 +21,7 @@ pub fn print(
     let report = &published.report;
     if context.json {
         let mut value = json::publication(session, report, published.failure.as_ref());
-        value["elapsed_secs"] = serde_json::json!(elapsed.as_secs_f64());
+        value["elapsedSecs"] = serde_json::json!(elapsed.as_secs_f64());
         say(value)?;
     } else {
         for line in lines(session, report, elapsed, what) {

@@ -4,14 +4,11 @@ use std::process::ExitCode;
 
 use anyhow::Context as _;
 use clap::{Args, Subcommand};
-use frontalis_client::{error::ClientError, proto};
+use frontalis_client::{connection::Channel, error::ClientError, proto};
 use proto::session_service_client::SessionServiceClient;
 
 use super::{Context, actor_name, names::new_session_id, session_name, settings::SettingsArgs};
-use crate::{
-    json,
-    terminal::{say, tables},
-};
+use crate::terminal::{say, tables};
 
 /// Sessions listed by one call.
 const PAGE_SIZE: u32 = 200;
@@ -103,7 +100,7 @@ impl SessionCommand {
     }
 }
 
-type Client = SessionServiceClient<tonic::transport::Channel>;
+type Client = SessionServiceClient<Channel>;
 
 async fn create(
     client: &mut Client,
@@ -174,8 +171,11 @@ async fn list(context: &Context, client: &mut Client) -> anyhow::Result<()> {
         }
     }
     if context.json {
-        let sessions: Vec<_> = sessions.iter().map(json::session).collect();
-        say(serde_json::json!({ "sessions": sessions }))?;
+        let all = proto::ListSessionsResponse {
+            sessions,
+            next_page_token: String::new(),
+        };
+        say(serde_json::to_value(all)?)?;
     } else {
         say(tables::sessions(&sessions))?;
     }
@@ -184,7 +184,7 @@ async fn list(context: &Context, client: &mut Client) -> anyhow::Result<()> {
 
 fn print(context: &Context, session: &proto::Session) -> anyhow::Result<()> {
     if context.json {
-        say(json::session(session))?;
+        say(serde_json::to_value(session)?)?;
     } else {
         say(tables::session(session))?;
     }

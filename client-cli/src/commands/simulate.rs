@@ -18,10 +18,10 @@ use frontalis_analysis::{
 };
 use frontalis_client::{
     capture_client::{CaptureClient, CaptureSettings},
+    connection::Channel,
     csv::field,
     simulated_stage::{SimulatedStage, StageFrame, StageSettings},
 };
-use tonic::transport::Channel;
 
 use super::{
     Context, actor,

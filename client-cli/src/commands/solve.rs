@@ -16,14 +16,18 @@ use frontalis_analysis::{
 };
 use frontalis_client::{
     csv::{CsvRow, CsvWriter},
+    curve_client::CurveEvent,
     error::advice_on,
+    proto,
     solve::{Solved, solve_take},
     take_file,
 };
-use serde_json::json;
 
 use super::{Context, actor, marker_check::MarkerCheck, settings::AnalysisArgs};
-use crate::terminal::{progress, say};
+use crate::{
+    json,
+    terminal::{progress, say},
+};
 
 /// Solve a TRC file without a server, as a session would
 #[derive(Debug, Args)]
@@ -121,23 +125,39 @@ fn write_csv(actor: &Actor, solved: &Solved) -> io::Result<()> {
     writer.flush()
 }
 
-/// One JSON object a sample, after one that names the controls.
+/// One JSON object a sample, after one that names the controls: the messages of a subscription.
 fn write_json(actor: &Actor, solved: &Solved) -> io::Result<()> {
     let mut out = BufWriter::new(io::stdout().lock());
-    let names: Vec<_> = muscle_names(actor).collect();
-    writeln!(out, "{}", json!({ "event": "header", "controls": names }))?;
-    for sample in &solved.samples {
+    let controls = muscle_names(actor).map(|it| proto::Control {
+        name: it.to_owned(),
+        ..proto::Control::default()
+    });
+    let header = proto::CurveHeader {
+        controls: controls.collect(),
+        ..proto::CurveHeader::default()
+    };
+    writeln!(out, "{}", json::event(CurveEvent::Header(header))?)?;
+    for (index, sample) in solved.samples.iter().enumerate() {
         let row = CsvRow::from(sample);
-        let value = json!({
-            "event": "sample",
-            "frame": row.frame,
-            "capture_time_nanos": row.capture_time_nanos,
-            "quality": row.quality,
-            "activations": row.activations,
-        });
-        writeln!(out, "{value}")?;
+        let mut message = proto::CurveSample {
+            frame: row.frame,
+            sequence: index as u64 + 1,
+            capture_time_nanos: row.capture_time_nanos,
+            activations: row.activations,
+            ..proto::CurveSample::default()
+        };
+        message.set_quality(wire_quality(sample.quality));
+        writeln!(out, "{}", json::event(CurveEvent::Sample(message))?)?;
     }
     out.flush()
+}
+
+fn wire_quality(quality: Quality) -> proto::Quality {
+    match quality {
+        Quality::Solved => proto::Quality::Solved,
+        Quality::Partial => proto::Quality::Partial,
+        Quality::Held => proto::Quality::Held,
+    }
 }
 
 fn summary(solved: &Solved, n_frames: usize) -> String {

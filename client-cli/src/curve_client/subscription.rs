@@ -8,11 +8,12 @@ use tokio::{
     time::{sleep, timeout},
 };
 use tokio_stream::wrappers::ReceiverStream;
-use tonic::{Code, Streaming, transport::Channel};
+use tonic::{Code, Streaming};
 
 use super::{CurveEvent, CurveSettings, StartAt, Wanted, position::Position};
 use crate::{
     backoff::Backoff,
+    connection::Channel,
     error::ClientError,
     proto::{
         Delivery, SubscribeRequest, SubscribeResponse, SubscribeStart,

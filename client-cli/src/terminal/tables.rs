@@ -2,7 +2,7 @@
 
 use comfy_table::{ContentArrangement, Table, presets};
 use frontalis_client::proto::{
-    Actor, CaptureKind, FaceRegion, RegionMode, Session, SessionState, SessionStatus,
+    Actor, CaptureKind, FaceRegion, RegionMode, Role, Server, Session, SessionState, SessionStatus,
 };
 
 use crate::commands::short_id;
@@ -229,6 +229,51 @@ fn session_facts(session: &Session, status: &SessionStatus) -> Vec<(&'static str
     rows
 }
 
+/// Everything about the server, and who asks.
+pub fn server(address: &str, server: &Server) -> Table {
+    let caller = server.caller.clone().unwrap_or_default();
+    let expires = timestamp(caller.expire_time.as_ref());
+    let mut rows = vec![
+        ("server", address.to_owned()),
+        ("version", server.version.clone()),
+        ("running since (UTC)", timestamp(server.start_time.as_ref())),
+        ("TLS", yes(server.tls)),
+        ("asks for tokens", yes(server.tokens)),
+        ("you are", caller.name.clone()),
+        ("your role", role(caller.role()).to_owned()),
+        ("your sessions", caller.sessions.join(", ")),
+        (
+            "your token expires (UTC)",
+            if expires.is_empty() {
+                "never".to_owned()
+            } else {
+                expires
+            },
+        ),
+    ];
+    if server.insecure {
+        rows.push((
+            "INSECURE",
+            "other machines can reach it unprotected".to_owned(),
+        ));
+    }
+    if server.draining {
+        rows.push(("shutting down", "yes".to_owned()));
+    }
+    facts(rows)
+}
+
+/// `operator`, `publisher`, `renderer` or `viewer`.
+pub fn role(role: Role) -> &'static str {
+    match role {
+        Role::Unspecified => "none",
+        Role::Operator => "operator",
+        Role::Publisher => "publisher",
+        Role::Renderer => "renderer",
+        Role::Viewer => "viewer",
+    }
+}
+
 /// `waiting`, `aligning`, `live`, `stale`, `ended`, `failed`.
 pub fn state(state: SessionState) -> &'static str {
     match state {
@@ -284,7 +329,13 @@ pub fn seconds(duration: pbjson_types::Duration) -> f64 {
 }
 
 /// `2026-11-22T16:59:09Z`, or nothing.
-pub fn timestamp(time: Option<&frontalis_proto::Timestamp>) -> String {
-    time.map(|it| frontalis_proto::Timestamp { nanos: 0, ..*it }.to_rfc3339())
-        .unwrap_or_default()
+pub fn timestamp(time: Option<&pbjson_types::Timestamp>) -> String {
+    time.map(|it| {
+        prost_types::Timestamp {
+            seconds: it.seconds,
+            nanos: 0,
+        }
+        .to_string()
+    })
+    .unwrap_or_default()
 }

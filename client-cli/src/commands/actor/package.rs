@@ -7,11 +7,11 @@ use frontalis_analysis::{
     face::actor::{Actor, RankPolicy},
     format::actor_package,
 };
-use frontalis_client::{error::ClientError, proto};
+use frontalis_client::{connection::Channel, error::ClientError, proto};
 use proto::actor_service_client::ActorServiceClient;
 use tokio::sync::mpsc;
 use tokio_stream::wrappers::ReceiverStream;
-use tonic::{Code, transport::Channel};
+use tonic::Code;
 
 use crate::{commands::actor_name, terminal::progress};
 

@@ -163,16 +163,16 @@ impl Summary {
     pub fn print(&self, context: &Context) -> anyhow::Result<()> {
         if context.json {
             say(json!({
-                "published_frames": self.published_frames,
-                "accepted_frames": self.accepted_frames,
-                "received_samples": self.received_samples,
-                "published_rate_hz": self.published_rate_hz,
-                "received_rate_hz": self.received_rate_hz,
-                "rms_error": self.rms_error,
-                "latency_p50_micros": self.latency_p50_micros,
-                "latency_p99_micros": self.latency_p99_micros,
-                "neutral_frames": self.neutral_frames,
-                "alignment_wait_micros": self.alignment_wait_micros,
+                "publishedFrames": self.published_frames.to_string(),
+                "acceptedFrames": self.accepted_frames.to_string(),
+                "receivedSamples": self.received_samples.to_string(),
+                "publishedRateHz": self.published_rate_hz,
+                "receivedRateHz": self.received_rate_hz,
+                "rmsError": self.rms_error,
+                "latencyP50Micros": self.latency_p50_micros,
+                "latencyP99Micros": self.latency_p99_micros,
+                "neutralFrames": self.neutral_frames.to_string(),
+                "alignmentWaitMicros": self.alignment_wait_micros,
             }))?;
             return Ok(());
         }

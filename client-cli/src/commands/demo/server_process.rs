@@ -11,13 +11,12 @@ use std::{
 };
 
 use anyhow::{Context as _, bail};
-use frontalis_client::connection;
+use frontalis_client::connection::{self, Channel};
 use rustix::process::{Pid, Signal, kill_process};
 use tokio::{
     process::{Child, Command},
     time::{sleep, timeout},
 };
-use tonic::transport::Channel;
 use tonic_health::pb::{
     HealthCheckRequest, health_check_response::ServingStatus, health_client::HealthClient,
 };

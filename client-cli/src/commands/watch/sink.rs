@@ -33,7 +33,7 @@ pub enum Sink {
 }
 
 impl Sink {
-    pub fn choose(context: &Context, session: &str, csv: bool) -> io::Result<Self> {
+    pub fn choose(context: &Context, session: &str, csv: bool) -> anyhow::Result<Self> {
         Ok(if csv {
             Self::Csv {
                 writer: None,
@@ -44,7 +44,7 @@ impl Sink {
         } else if terminal::is_interactive() {
             Self::Bars {
                 screen: Screen::open()?,
-                picture: Box::new(Picture::new(&context.server, session)),
+                picture: Box::new(Picture::new(&context.server()?, session)),
             }
         } else {
             Self::Plain(PlainLines::default())
@@ -60,7 +60,7 @@ impl Sink {
             }
             Self::Plain(lines) => lines.take(&event)?,
             Self::Csv { writer, controls } => return take_csv(writer, controls, &event),
-            Self::Json(out) => writeln!(out, "{}", json::event(&event))?,
+            Self::Json(out) => writeln!(out, "{}", json::event(event)?)?,
         }
         Ok(())
     }
