@@ -6,6 +6,7 @@
 mod actors;
 mod call;
 mod curves;
+mod docs;
 mod fallback;
 mod observe;
 mod openapi;
@@ -25,6 +26,7 @@ use axum::{
 use tower_http::{catch_panic::CatchPanicLayer, timeout::TimeoutLayer};
 use utoipa_axum::{router::OpenApiRouter, routes};
 
+use self::openapi::Document;
 use super::door::Services;
 use crate::{
     shutdown::Phases,
@@ -48,12 +50,21 @@ pub struct Doors {
 /// The routes of plain HTTP.
 pub fn router(doors: Doors) -> Router {
     let metrics = doors.metrics.clone();
-    let (api, _description) = api();
+    let (api, operations) = api();
+    let description = Document::new(&operations, false);
     Router::new()
         .route("/", get(observe::index))
         .route("/healthz", get(observe::healthz))
         .route("/readyz", get(observe::readyz))
         .route("/metrics", get(observe::metrics))
+        .route("/docs", get(docs::index))
+        .route("/docs/", get(docs::page))
+        .route("/docs/{*file}", get(docs::file))
+        .merge(
+            Router::new()
+                .route("/openapi.json", get(openapi::serve))
+                .with_state(description),
+        )
         .layer(within_deadline())
         .merge(api.layer(middleware::from_fn_with_state(metrics.clone(), count)))
         .method_not_allowed_fallback(fallback::method_not_allowed)

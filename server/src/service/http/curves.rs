@@ -8,7 +8,7 @@ use utoipa::IntoParams;
 use super::{
     Doors,
     call::{Answer, Call},
-    openapi::{ObjectRefusals, RangeRefusals, Refusals, StateRefusals},
+    openapi::{self, ObjectRefusals, RangeRefusals, Refusals, StateRefusals},
     query::SessionPath,
 };
 
@@ -30,7 +30,7 @@ pub(super) struct CurvesQuery {
     limit: u32,
     /// Fill `standardErrors`; this version cannot.
     #[serde(default)]
-    #[param(required = false)]
+    #[param(required = false, schema_with = openapi::not_yet)]
     with_uncertainty: bool,
     /// Fill `observedCm`, `reproducedCm` and `observedMarkers`.
     #[serde(default)]

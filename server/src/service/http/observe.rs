@@ -31,6 +31,8 @@ GET, PATCH /api/v1/sessions/ID
 POST /api/v1/sessions/ID/recenter
 POST /api/v1/sessions/ID/end
 GET /api/v1/sessions/ID/curves?run=RUN&after=SEQUENCE&limit=N
+GET /docs
+GET /openapi.json
 GET /healthz
 GET /readyz
 GET /metrics

@@ -1,7 +1,154 @@
 //! The description of the HTTP door, `/openapi.json`: made from the routes and from the descriptors of the messages.
+//!
+//! Operations stand beside their handlers. Schemas follow the protobuf JSON mapping; where a message is read, they say
+//! how wide it is read, so that what they allow is accepted and what they do not allow is refused.
 
+mod limits;
 mod messages;
+mod own;
 mod refusals;
+mod schema;
 
-pub(super) use messages::enum_names;
+use std::{collections::BTreeSet, sync::Arc};
+
+use axum::{
+    extract::State,
+    http::{HeaderValue, header},
+    response::{IntoResponse as _, Response},
+};
+use bytes::Bytes;
+use serde_json::{Value, json};
+use utoipa::openapi::OpenApi;
+
+use messages::Messages;
+
+pub(super) use messages::{enum_names, not_yet};
 pub(super) use refusals::{BodyRefusals, ObjectRefusals, RangeRefusals, Refusals, StateRefusals};
+
+/// How a schema of this document is named.
+const SCHEMAS: &str = "#/components/schemas/";
+
+/// The document as it is served.
+#[derive(Clone)]
+pub(super) struct Document(Arc<Bytes>);
+
+impl Document {
+    /// Describes `operations`; callers must prove who they are if `tokens`.
+    pub fn new(operations: &OpenApi, tokens: bool) -> Self {
+        Self(Arc::new(Bytes::from(
+            document(operations, tokens).to_string(),
+        )))
+    }
+}
+
+/// `GET /openapi.json`.
+pub(super) async fn serve(State(document): State<Document>) -> Response {
+    let kind = HeaderValue::from_static("application/json");
+    let body = Bytes::clone(&document.0);
+    ([(header::CONTENT_TYPE, kind)], body).into_response()
+}
+
+/// The whole document.
+pub(super) fn document(operations: &OpenApi, tokens: bool) -> Value {
+    let mut document = json!(operations);
+    bodies(&mut document["paths"]).for_each(|body| {
+        body["required"] = json!(!references(body).iter().any(|it| limits::may_be_absent(it)));
+    });
+    document["info"] = json!({
+        "title": "Frontalis",
+        "version": env!("CARGO_PKG_VERSION"),
+        "license": { "name": "MIT OR Apache-2.0", "identifier": "MIT OR Apache-2.0" },
+        "description": INTRODUCTION,
+    });
+    document["tags"] = json!(
+        TAGS.map(|(name, description)| { json!({ "name": name, "description": description }) })
+    );
+    let token = json!({ "bearer": [] });
+    document["security"] = if tokens {
+        json!([token])
+    } else {
+        json!([{}, token])
+    };
+    document["components"] = json!({
+        "schemas": schemas(&mut document["paths"]),
+        "securitySchemes": {
+            "bearer": {
+                "type": "http",
+                "scheme": "bearer",
+                "description": "A token that `frontalis token create` made. Never in the query.",
+            },
+        },
+    });
+    document
+}
+
+/// Everything that the paths refer to, and what that refers to.
+fn schemas(paths: &mut Value) -> Value {
+    let messages = Messages::of_the_protocol();
+    let read = bodies(paths).flat_map(|it| references(it)).collect();
+    let read = messages.closure(&read);
+    let mut schemas = own::schemas();
+    let mut wanted = references(paths);
+    for schema in schemas.values() {
+        wanted.extend(references(schema));
+    }
+    for name in messages.closure(&wanted) {
+        if let Some(schema) = messages.schema(&name, read.contains(&name)) {
+            schemas.insert(name, schema);
+        }
+    }
+    Value::Object(schemas)
+}
+
+/// The request bodies of all operations.
+fn bodies(paths: &mut Value) -> impl Iterator<Item = &mut Value> {
+    let items = paths.as_object_mut().into_iter().flatten();
+    let operations = items.filter_map(|(_, item)| item.as_object_mut()).flatten();
+    operations.filter_map(|(_, operation)| operation.get_mut("requestBody"))
+}
+
+/// The names of the schemas that `value` refers to.
+fn references(value: &Value) -> BTreeSet<String> {
+    let mut found = BTreeSet::new();
+    collect(value, &mut found);
+    found
+}
+
+fn collect(value: &Value, found: &mut BTreeSet<String>) {
+    match value {
+        Value::Array(items) => items.iter().for_each(|it| collect(it, found)),
+        Value::Object(fields) => {
+            let reference = fields.get("$ref").and_then(Value::as_str);
+            let name = reference.and_then(|it| it.strip_prefix(SCHEMAS));
+            found.extend(name.map(str::to_owned));
+            fields.values().for_each(|it| collect(it, found));
+        }
+        _ => {}
+    }
+}
+
+const TAGS: [(&str, &str); 5] = [
+    ("server", "The server itself, and who asks."),
+    (
+        "actors",
+        "The neutral face, the actuation basis and the marker layout of one person, in numbered revisions.",
+    ),
+    (
+        "sessions",
+        "One actor, one capture, any number of subscribers.",
+    ),
+    ("capture", "Frames in."),
+    ("curves", "Curves out."),
+];
+
+const INTRODUCTION: &str = "\
+Facial motion capture in, muscle curves out.
+
+Every operation is a method of the gRPC service that `x-grpc-method` names, with the same checks, rights and reasons. \
+Bodies are the protobuf JSON mapping: fields in camel case (the names of the `.proto` files are read too), enums by \
+name, numbers of 64 bits as text, fields with their default left out. Unknown and repeated fields are refused.
+
+A refusal is `application/problem+json`; the end of its `type` is the reason, the same as over gRPC.";
+
+#[cfg(test)]
+mod tests;

@@ -82,7 +82,7 @@ pub(in crate::service::http) struct ImportQuery {
             description = "The actor as its newest revision.",
             content(
                 (ref("#/components/schemas/ImportActorResponse") = "application/json"),
-                (ref("#/components/schemas/ImportActorLines") = "application/x-ndjson"),
+                (ref("#/components/schemas/ImportActorLine") = "application/x-ndjson"),
             ),
         ),
         Refusals,

@@ -2,6 +2,8 @@
 //!
 //! The parser's own texts hold keys that the client sent, so only their kind is told (BAD_INPUT, header).
 
+mod numbers;
+
 use std::fmt;
 
 use axum::http::StatusCode;
@@ -18,6 +20,7 @@ pub(super) fn message<T: DeserializeOwned>(
     bytes: &[u8],
     in_path: &'static [&'static str],
 ) -> Result<T, Problem> {
+    let bytes = &numbers::whole(bytes);
     let mut keys = serde_json::Deserializer::from_slice(bytes);
     keys.deserialize_any(Keys { in_path })
         .map_err(|error| problem(&error))?;

@@ -1,0 +1,85 @@
+//! What the server asks of fields beyond their type: the same limits that `wire` enforces, as schemas say them.
+
+use frontalis_proto::v1;
+use serde_json::{Value, json};
+
+use crate::service::http::call::PathFields;
+
+/// `actors/ID`.
+const ACTOR: &str = "^actors/[a-z0-9][a-z0-9_-]{0,62}$";
+/// An id, or none.
+const OPTIONAL_ID: &str = "^([a-z0-9][a-z0-9_-]{0,62})?$";
+/// Nothing that moves a cursor or turns text around.
+const DISPLAY_NAME: &str = concat!(
+    r"^[^\u0000-\u001f\u007f-\u009f\u061c\u200e\u200f\u2028\u2029",
+    r"\u202a-\u202e\u2066-\u2069]*$"
+);
+/// 10 ms to 1 h.
+const DURATION: &str = concat!(
+    r"^(0\.(0[1-9][0-9]{0,7}|[1-9][0-9]{0,8})",
+    r"|([1-9]|[1-9][0-9]|[1-9][0-9]{2}|[12][0-9]{3}|3[0-5][0-9]{2})(\.[0-9]{1,9})?",
+    r"|3600(\.0{1,9})?)s$"
+);
+/// Paths of `SessionSettings`.
+const MASK: &str = concat!(
+    r"^((settings\.)?(neutralFrames|allowExaggeration|smoothing|sparsity|robust|stabilizeHead|staleAfter",
+    r"|publisherTimeout|record|regionMode|plain|alignOnRequest|recordImages)(,|$))*$"
+);
+
+/// Fields that the path of the operation says, and its body therefore must not.
+pub(super) fn in_path(message: &str) -> &'static [&'static str] {
+    match message {
+        "UpdateSessionRequest" => v1::UpdateSessionRequest::IN_PATH,
+        "RecenterSessionRequest" => v1::RecenterSessionRequest::IN_PATH,
+        "EndSessionRequest" => v1::EndSessionRequest::IN_PATH,
+        _ => &[],
+    }
+}
+
+/// Whether a body may be left out.
+pub(super) fn may_be_absent(message: &str) -> bool {
+    match message {
+        "RecenterSessionRequest" => v1::RecenterSessionRequest::MAY_BE_ABSENT,
+        "EndSessionRequest" => v1::EndSessionRequest::MAY_BE_ABSENT,
+        _ => false,
+    }
+}
+
+/// Fields without which a message is refused.
+pub(super) fn required(message: &str) -> &'static [&'static str] {
+    match message {
+        "CreateSessionRequest" => &["actor", "kind"],
+        _ => &[],
+    }
+}
+
+/// The limit of a field, beside or in place of its type's schema.
+pub(super) fn of(message: &str, field: &str) -> Option<Value> {
+    let limit = match (message, field) {
+        ("CreateSessionRequest", "session_id") => json!({ "pattern": OPTIONAL_ID }),
+        ("CreateSessionRequest", "actor") => json!({ "pattern": ACTOR }),
+        // This version takes no images.
+        ("CreateSessionRequest", "kind") => json!({ "enum": ["CAPTURE_KIND_MARKERS", 1] }),
+        ("CreateSessionRequest", "display_name") => display_name(),
+        ("UpdateSessionRequest", "update_mask") => json!({ "pattern": MASK }),
+        ("SessionSettings", "neutral_frames") => json!({
+            "minimum": 1,
+            "maximum": 256,
+            "pattern": "^([1-9][0-9]?|1[0-9]{2}|2[0-4][0-9]|25[0-6])$",
+        }),
+        // Off, until this version can.
+        ("SessionSettings", "smoothing" | "sparsity") => {
+            json!({ "minimum": 0, "maximum": 0, "pattern": "^0$" })
+        }
+        ("SessionSettings", "robust" | "record" | "plain" | "record_images") => {
+            json!({ "enum": [false] })
+        }
+        ("SessionSettings", "stale_after" | "publisher_timeout") => json!({ "pattern": DURATION }),
+        _ => return None,
+    };
+    Some(limit)
+}
+
+pub(super) fn display_name() -> Value {
+    json!({ "maxLength": 128, "pattern": DISPLAY_NAME })
+}

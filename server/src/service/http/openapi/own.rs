@@ -1,0 +1,91 @@
+//! Schemas of what is no message: problems, packages, lines of progress.
+
+use serde_json::{Map, Value, json};
+
+/// By name.
+pub(super) fn schemas() -> Map<String, Value> {
+    [
+        ("Problem", problem()),
+        ("Package", package()),
+        ("ImportActorLine", import_line()),
+    ]
+    .into_iter()
+    .map(|(name, schema)| (name.to_owned(), schema))
+    .collect()
+}
+
+fn problem() -> Value {
+    json!({
+        "type": "object",
+        "description": "Why a request was refused (RFC 9457), with figures that a program can read.",
+        "required": ["type", "title", "status", "detail", "instance"],
+        "properties": {
+            "type": {
+                "type": "string",
+                "pattern": "^urn:frontalis:problem:[A-Z][A-Z0-9_]*$",
+                "description": "Ends with the reason, as `google.rpc.ErrorInfo` has it.",
+            },
+            "title": { "type": "string", "description": "The reason in words." },
+            "status": { "type": "integer", "minimum": 400, "maximum": 599 },
+            "detail": { "type": "string", "description": "What is wrong with this request." },
+            "instance": { "type": "string", "description": "The path of the request." },
+            "field": { "type": "string", "description": "The field that cannot be used, as the `.proto` file names it." },
+            "limit": { "type": "string", "description": "The limit that was reached." },
+            "value": { "type": "integer", "description": "Its value." },
+        },
+        "additionalProperties": { "type": ["string", "integer"] },
+        "examples": [{
+            "type": "urn:frontalis:problem:SESSION",
+            "title": "session",
+            "status": 404,
+            "detail": "no such session",
+            "instance": "/api/v1/sessions/take-1",
+        }],
+    })
+}
+
+fn package() -> Value {
+    json!({
+        "type": "string",
+        "format": "binary",
+        "description": "A GLB or a ZIP: see ACTOR_PACKAGE in the documentation.",
+    })
+}
+
+fn import_line() -> Value {
+    let count = || json!({ "type": "string", "pattern": "^[0-9]+$" });
+    json!({
+        "description": "One line; the last one has `result` or `error`.",
+        "oneOf": [
+            {
+                "type": "object",
+                "required": ["progress"],
+                "additionalProperties": false,
+                "properties": {
+                    "progress": {
+                        "type": "object",
+                        "required": ["stage", "receivedBytes"],
+                        "additionalProperties": false,
+                        "properties": {
+                            "stage": { "type": "string", "enum": ["RECEIVING", "READING", "STORING"] },
+                            "receivedBytes": count(),
+                            "totalBytes": count(),
+                        },
+                    },
+                },
+            },
+            {
+                "type": "object",
+                "required": ["result"],
+                "additionalProperties": false,
+                "properties": { "result": { "$ref": "#/components/schemas/ImportActorResponse" } },
+            },
+            {
+                "type": "object",
+                "required": ["error"],
+                "additionalProperties": false,
+                "properties": { "error": { "$ref": "#/components/schemas/Problem" } },
+            },
+        ],
+    })
+}
