@@ -28,6 +28,7 @@ struct Inner {
     connections_accepted: Counter,
     connections_refused: Family<RefusedLabel, Counter>,
     accept_failures: Counter,
+    floods: Family<FloodLabel, Counter>,
     handshake_failures: Family<HandshakeLabel, Counter>,
     certificate_reloads: Family<ReloadLabel, Counter>,
     requests: Family<ProtocolLabel, Counter>,
@@ -106,6 +107,11 @@ struct RefusedLabel {
 }
 
 #[derive(Clone, Debug, PartialEq, Eq, Hash, EncodeLabelSet)]
+struct FloodLabel {
+    frames: &'static str,
+}
+
+#[derive(Clone, Debug, PartialEq, Eq, Hash, EncodeLabelSet)]
 struct HandshakeLabel {
     why: &'static str,
 }
@@ -168,6 +174,7 @@ impl Metrics {
             connections_accepted: Counter::default(),
             connections_refused: Family::default(),
             accept_failures: Counter::default(),
+            floods: Family::default(),
             handshake_failures: Family::default(),
             certificate_reloads: Family::default(),
             requests: Family::default(),
@@ -210,6 +217,11 @@ impl Metrics {
     /// The system could not hand over a connection.
     pub fn accept_failed(&self) {
         self.0.accept_failures.inc();
+    }
+
+    /// A connection was closed for too many frames of a kind.
+    pub fn connection_flooded(&self, frames: &'static str) {
+        self.0.floods.get_or_create(&FloodLabel { frames }).inc();
     }
 
     /// A TLS handshake came to nothing.
@@ -334,6 +346,11 @@ impl Inner {
             "accept_failures",
             "Connections that the system could not hand over",
             self.accept_failures.clone(),
+        );
+        it.register(
+            "connections_flooded",
+            "Connections closed for too many HTTP/2 control frames, by their kind",
+            self.floods.clone(),
         );
         it.register(
             "tls_handshake_failures",

@@ -2,12 +2,14 @@
 //!
 //! The loop outlives whatever the system or a peer does: a failing `accept` backs off and goes on, a connection beyond
 //! a limit is closed at once, one that does not begin to speak is closed after a deadline, one whose peer has vanished
-//! after an unanswered ping.
+//! after an unanswered ping, one that floods as soon as it does.
 
 mod admission;
 mod connection;
+mod frames;
+mod inbound;
+mod liveness;
 mod open_connection;
-mod opening;
 pub mod tls;
 
 use std::{io, net::SocketAddr, time::Duration};
@@ -25,6 +27,7 @@ use admission::Admission;
 use connection::Connections;
 use tls::Tls;
 
+pub use frames::ControlFrame;
 pub use open_connection::OpenConnection;
 pub use tls::PeerCertificate;
 

@@ -11,6 +11,7 @@ use hyper_util::{
 use tokio::{
     io::{AsyncRead, AsyncWrite},
     net::TcpStream,
+    time::timeout,
 };
 use tokio_util::task::TaskTracker;
 use tonic::transport::server::TcpConnectInfo;
@@ -19,7 +20,9 @@ use tower::ServiceExt as _;
 use super::{
     Listener, OpenConnection, PeerCertificate,
     admission::Permit,
-    opening::Opening,
+    frames::ControlFrame,
+    inbound::Inbound,
+    liveness::Liveness,
     tls::{Handshake, Tls},
 };
 use crate::{config::Config, shutdown::Phases, telemetry::Metrics};
@@ -33,12 +36,16 @@ const PENDING_RESETS: usize = 20;
 /// Streams that the server may reset because of a peer's errors (S-9).
 const LOCAL_ERROR_RESETS: usize = 1_024;
 
+/// From the GOAWAY to a peer that floods until its connection is dropped.
+const FLOOD_GRACE: Duration = Duration::from_millis(500);
+
 /// What every connection is served with; cheap to clone.
 #[derive(Clone)]
 pub(super) struct Connections {
     router: Router,
     tls: Option<Tls>,
     http: auto::Builder<TokioExecutor>,
+    liveness: Liveness,
     handshake_deadline: Duration,
     header_deadline: Duration,
     metrics: Metrics,
@@ -62,6 +69,7 @@ impl Connections {
             router: listener.router.clone(),
             tls: listener.tls.clone(),
             http: http(config),
+            liveness: Liveness::new(transport),
             handshake_deadline: Duration::from_secs(transport.handshake_deadline_secs),
             header_deadline: Duration::from_secs(transport.header_deadline_secs),
             metrics: listener.metrics.clone(),
@@ -72,8 +80,7 @@ impl Connections {
 
     /// Serves a connection in a task of its own.
     pub(super) fn spawn(&self, stream: TcpStream, peer: SocketAddr, permit: Permit) {
-        // Samples are small and late ones worthless: nothing may wait for more to send.
-        if let Err(error) = stream.set_nodelay(true) {
+        if let Err(error) = self.liveness.set(&stream) {
             tracing::debug!(%error, "a connection was gone at once");
             return;
         }
@@ -124,17 +131,33 @@ impl Connections {
         S: AsyncRead + AsyncWrite + Unpin + Send + 'static,
     {
         let _open = about.open.clone();
-        let io = TokioIo::new(Opening::new(stream, self.header_deadline));
+        let (inbound, exceeded) = Inbound::new(stream, self.header_deadline);
+        let peer = about.peer;
         let service = service(self.router.clone(), about);
-        let connection = self.http.serve_connection_with_upgrades(io, service);
-        drive(connection.into_owned(), &self.phases).await;
+        let connection = self
+            .http
+            .serve_connection_with_upgrades(TokioIo::new(inbound), service);
+        let flooded = async {
+            match exceeded.await {
+                Ok(kind) => self.report_flood(peer, kind),
+                Err(_) => std::future::pending().await,
+            }
+        };
+        drive(connection.into_owned(), &self.phases, flooded).await;
+    }
+
+    fn report_flood(&self, peer: SocketAddr, kind: ControlFrame) {
+        self.metrics.connection_flooded(kind.name());
+        tracing::info!(%peer, frames = kind.name(), "a connection sent too many control frames and is closed");
     }
 }
 
-/// Polls a connection to its end; when the server closes it is asked to end, when the server gives up it is dropped.
+/// Polls a connection to its end. It is asked to end when the server closes, and when it floods, and is dropped when it
+/// takes too long.
 async fn drive<I, S, B>(
     connection: auto::UpgradeableConnection<'static, I, S, TokioExecutor>,
     phases: &Phases,
+    flooded: impl Future<Output = ()>,
 ) where
     I: hyper::rt::Read + hyper::rt::Write + Unpin + Send + 'static,
     S: hyper::service::Service<http::Request<Incoming>, Response = http::Response<B>>
@@ -153,6 +176,10 @@ async fn drive<I, S, B>(
             () = phases.closing.cancelled() => {
                 connection.as_mut().graceful_shutdown();
                 connection.await
+            }
+            () = flooded => {
+                connection.as_mut().graceful_shutdown();
+                timeout(FLOOD_GRACE, connection).await.unwrap_or(Ok(()))
             }
         }
     };
