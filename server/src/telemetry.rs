@@ -69,6 +69,12 @@ pub enum HandshakeFailure {
 pub enum Protocol {
     /// gRPC.
     Grpc,
+    /// gRPC-web.
+    GrpcWeb,
+    /// A WebSocket.
+    WebSocket,
+    /// Server-sent events.
+    Sse,
     /// Plain HTTP.
     Http,
 }
@@ -96,6 +102,9 @@ impl Protocol {
     fn name(self) -> &'static str {
         match self {
             Self::Grpc => "grpc",
+            Self::GrpcWeb => "grpc-web",
+            Self::WebSocket => "websocket",
+            Self::Sse => "sse",
             Self::Http => "http",
         }
     }

@@ -1,4 +1,4 @@
-//! The one port's router: gRPC with health and reflection, plain HTTP, and one answer for everything else.
+//! The one port's router: gRPC and gRPC-web with health and reflection, plain HTTP, and one answer for everything else.
 
 use std::time::Duration;
 
@@ -13,6 +13,7 @@ use frontalis_proto::{
 };
 use tonic::service::Routes;
 use tonic_health::{ServingStatus, server::HealthReporter};
+use tonic_web::GrpcWebLayer;
 use tower_http::catch_panic::CatchPanicLayer;
 
 use super::{
@@ -135,6 +136,8 @@ pub async fn router(
             services.calls.clone(),
             calls::admit_grpc,
         ))
+        // Outside of what may refuse: a refusal too is written as the client reads it.
+        .layer(GrpcWebLayer::new())
         .layer(middleware::from_fn_with_state(metrics.clone(), grpc_only));
     let http = http::router(doors)
         .layer(middleware::map_response_with_state(

@@ -7,17 +7,22 @@ mod actors;
 mod call;
 mod curves;
 mod docs;
+mod events;
 mod fallback;
+mod frames;
+mod message;
 mod observe;
 mod openapi;
 mod problem;
 mod query;
 mod server;
 mod sessions;
+mod stream;
+mod streams;
 
 use axum::{
     Router,
-    extract::{Request, State},
+    extract::{MatchedPath, Request, State},
     http::StatusCode,
     middleware::{self, Next},
     response::Response,
@@ -89,7 +94,10 @@ fn api() -> (Router<Doors>, utoipa::openapi::OpenApi) {
         .routes(routes!(actors::import))
         .routes(routes!(actors::model))
         .routes(routes!(actors::package));
-    calls.merge(transfers).split_for_parts()
+    calls
+        .merge(transfers)
+        .merge(streams::routes())
+        .split_for_parts()
 }
 
 /// A call must be answered within a time.
@@ -98,6 +106,7 @@ fn within_deadline() -> TimeoutLayer {
 }
 
 async fn count(State(metrics): State<Metrics>, request: Request, next: Next) -> Response {
-    metrics.request(Protocol::Http);
+    let route = request.extensions().get::<MatchedPath>();
+    metrics.request(route.map_or(Protocol::Http, |it| streams::protocol(it.as_str())));
     next.run(request).await
 }

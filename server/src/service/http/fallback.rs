@@ -14,15 +14,15 @@ use tower_http::catch_panic::ResponseForPanic;
 
 use super::problem::Problem;
 use crate::{
-    service::grpc::status::refuse,
+    service::{grpc::status::refuse, peer::Door},
     telemetry::{Metrics, Protocol},
 };
 
 /// No route of that path.
 pub async fn unknown(request: Request) -> Response {
-    if speaks_grpc(request.headers()) {
+    if let Some(door) = grpc_door(request.headers()) {
         let status = refuse(Code::Unimplemented, "METHOD", "there is no such method");
-        return grpc(status);
+        return grpc(status, door);
     }
     Problem::new(
         StatusCode::NOT_FOUND,
@@ -34,13 +34,13 @@ pub async fn unknown(request: Request) -> Response {
 
 /// The path exists, the method does not.
 pub(super) async fn method_not_allowed(request: Request) -> Response {
-    if speaks_grpc(request.headers()) {
+    if let Some(door) = grpc_door(request.headers()) {
         let status = refuse(
             Code::Unimplemented,
             "METHOD",
             "this path does not speak gRPC",
         );
-        return grpc(status);
+        return grpc(status, door);
     }
     // The router adds what this path allows.
     Problem::new(
@@ -51,46 +51,73 @@ pub(super) async fn method_not_allowed(request: Request) -> Response {
     .into_response()
 }
 
-/// Lets only gRPC pass to the gRPC services.
-pub async fn grpc_only(State(metrics): State<Metrics>, request: Request, next: Next) -> Response {
-    if !speaks_grpc(request.headers()) {
+/// Lets only gRPC and gRPC-web pass to the gRPC services.
+pub async fn grpc_only(
+    State(metrics): State<Metrics>,
+    mut request: Request,
+    next: Next,
+) -> Response {
+    let Some(door) = grpc_door(request.headers()) else {
         metrics.request(Protocol::Http);
+        return not_grpc(request.method());
+    };
+    if door == Door::GrpcWeb {
+        metrics.request(Protocol::GrpcWeb);
         if request.method() != Method::POST {
-            let problem = Problem::new(
-                StatusCode::METHOD_NOT_ALLOWED,
-                "HTTP_METHOD",
-                "this path is called with POST, as gRPC",
-            );
-            return ([(header::ALLOW, "POST")], problem).into_response();
+            return only_post();
         }
-        return Problem::new(
-            StatusCode::UNSUPPORTED_MEDIA_TYPE,
-            "CONTENT_TYPE",
-            "this path speaks gRPC: the content type must be application/grpc",
-        )
-        .into_response();
+    } else {
+        metrics.request(Protocol::Grpc);
+        if request.version() != Version::HTTP_2 {
+            let message = "gRPC needs HTTP/2";
+            return grpc(refuse(Code::Unimplemented, "HTTP_VERSION", message), door);
+        }
     }
-    metrics.request(Protocol::Grpc);
-    if request.version() != Version::HTTP_2 {
-        return grpc(refuse(
-            Code::Unimplemented,
-            "HTTP_VERSION",
-            "gRPC needs HTTP/2",
-        ));
-    }
+    request.extensions_mut().insert(door);
     next.run(request).await
 }
 
-fn grpc(status: Status) -> Response {
-    status.into_http::<Body>()
+fn not_grpc(method: &Method) -> Response {
+    if method != Method::POST {
+        return only_post();
+    }
+    Problem::new(
+        StatusCode::UNSUPPORTED_MEDIA_TYPE,
+        "CONTENT_TYPE",
+        "this path speaks gRPC: the content type must be application/grpc or application/grpc-web",
+    )
+    .into_response()
 }
 
-fn speaks_grpc(headers: &HeaderMap) -> bool {
-    let kind = headers.get(header::CONTENT_TYPE).map(HeaderValue::as_bytes);
-    kind.and_then(|it| it.strip_prefix(b"application/grpc"))
-        .is_some_and(|rest| {
-            rest.is_empty() || rest.starts_with(b"+proto") || rest.starts_with(b";")
-        })
+fn only_post() -> Response {
+    let problem = Problem::new(
+        StatusCode::METHOD_NOT_ALLOWED,
+        "HTTP_METHOD",
+        "this path is called with POST, as gRPC",
+    );
+    ([(header::ALLOW, "POST")], problem).into_response()
+}
+
+/// A refusal as the door's clients read it; gRPC-web takes the status from the headers too, under its own type.
+fn grpc(status: Status, door: Door) -> Response {
+    let mut response = status.into_http::<Body>();
+    if door == Door::GrpcWeb {
+        let kind = HeaderValue::from_static("application/grpc-web+proto");
+        response.headers_mut().insert(header::CONTENT_TYPE, kind);
+    }
+    response
+}
+
+/// By which of the gRPC doors a request comes, if by one; exactly the types that are read.
+fn grpc_door(headers: &HeaderMap) -> Option<Door> {
+    let kind = headers.get(header::CONTENT_TYPE)?.as_bytes();
+    let rest = kind.strip_prefix(b"application/grpc")?;
+    match rest {
+        b"-web" | b"-web+proto" | b"-web-text" | b"-web-text+proto" => Some(Door::GrpcWeb),
+        b"" => Some(Door::Grpc),
+        rest if rest.starts_with(b"+proto") || rest.starts_with(b";") => Some(Door::Grpc),
+        _ => None,
+    }
 }
 
 /// Answers a panic of an HTTP handler, without its message.
@@ -118,10 +145,7 @@ impl ResponseForPanic for GrpcPanic {
     fn response_for_panic(&mut self, _panic: Box<dyn Any + Send>) -> Response {
         self.0.panicked();
         tracing::error!("a gRPC handler panicked");
-        grpc(refuse(
-            Code::Internal,
-            "PANIC",
-            "the server made a mistake; it goes on",
-        ))
+        let message = "the server made a mistake; it goes on";
+        grpc(refuse(Code::Internal, "PANIC", message), Door::Grpc)
     }
 }

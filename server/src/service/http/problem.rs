@@ -23,7 +23,7 @@ const MAX_INSTANCE: usize = 256;
 const MAX_NUMBER: u64 = 1 << 53;
 
 /// Of all that is exhausted, these are the body itself; trying again will not help.
-const TOO_LARGE: [&str; 2] = ["BASIS_SIZE", "CHUNK_SIZE"];
+const TOO_LARGE: [&str; 3] = ["BASIS_SIZE", "CHUNK_SIZE", "MESSAGE_SIZE"];
 
 /// Of every problem document.
 pub const MEDIA_TYPE: &str = "application/problem+json";
@@ -63,6 +63,11 @@ impl Problem {
         let instance: String = instance.chars().take(MAX_INSTANCE).collect();
         body["instance"] = json!(instance);
         body
+    }
+
+    /// The last message of a stream that fails: `{"error": …}`.
+    pub fn in_stream(&self, instance: &str) -> String {
+        json!({ "error": self.document(instance) }).to_string()
     }
 
     fn body(&self) -> Value {

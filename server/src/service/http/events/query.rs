@@ -1,0 +1,247 @@
+//! What the client of an event stream asks for: the query, and where it left off.
+
+use std::{fmt, str::FromStr};
+
+use axum::http::{HeaderMap, StatusCode};
+use frontalis_proto::v1;
+use serde::Deserialize;
+use utoipa::IntoParams;
+
+use super::super::problem::Problem;
+
+/// Header of a browser that comes back.
+const LAST_EVENT_ID: &str = "last-event-id";
+
+/// `SubscribeStart` as a query.
+#[derive(Clone, Debug, Default, Deserialize, IntoParams)]
+#[serde(deny_unknown_fields, default, rename_all = "camelCase")]
+#[into_params(parameter_in = Query)]
+pub(in super::super) struct EventsQuery {
+    /// A name for status and logs; empty: the peer's address.
+    #[param(required = false, max_length = 128)]
+    subscriber: String,
+    /// `latest`, which is the default, or `every_frame`.
+    #[param(required = false, value_type = String, pattern = "^((DELIVERY_)?(LATEST|EVERY_FRAME)|latest|every_frame|)$", example = "every_frame")]
+    delivery: Word,
+    /// `every_frame`: the first sample wanted; 0: from now.
+    #[param(required = false, maximum = 18_446_744_073_709_551_615_u64)]
+    from_sequence: u64,
+    /// `every_frame`: from the oldest sample that is kept.
+    #[param(required = false)]
+    from_oldest: bool,
+    /// Of `fromSequence`; 0: the current run.
+    #[param(required = false, maximum = 18_446_744_073_709_551_615_u64)]
+    run: u64,
+    /// `latest`: samples a second at most; 0: 30.
+    #[param(required = false, minimum = 0)]
+    max_rate_hz: f32,
+    /// `muscles`, which is the default; this version has no other.
+    #[param(required = false, value_type = String, pattern = "^((CONTROL_SPACE_)?(MUSCLES|FACS|ARKIT)|muscles|facs|arkit|)$", example = "muscles")]
+    control_space: Word,
+    /// Fill `standardErrors`; this version cannot.
+    #[param(required = false)]
+    with_uncertainty: bool,
+    /// Fill `observedCm`, `reproducedCm` and `observedMarkers`.
+    #[param(required = false)]
+    with_markers: bool,
+    /// The stream ends after so many samples; absent: with the session.
+    #[param(maximum = 18_446_744_073_709_551_615_u64)]
+    pub(super) limit: Option<u64>,
+}
+
+/// What a client that comes back says.
+#[derive(IntoParams)]
+#[into_params(parameter_in = Header)]
+#[expect(dead_code, reason = "only describes the header")]
+pub(super) struct LastEventId {
+    /// `run:sequence`, the id of the last event that the client has.
+    #[param(
+        rename = "last-event-id",
+        required = false,
+        pattern = "^[0-9]{1,19}:[0-9]{1,19}(:end)?$",
+        example = "1:120"
+    )]
+    last_event_id: Option<String>,
+}
+
+/// The name of an enum's value, with or without the enum's own name in front.
+#[derive(Clone, Debug, Default, Deserialize)]
+#[serde(transparent)]
+struct Word(String);
+
+impl Word {
+    fn number<E>(&self, prefix: &str, read: fn(&str) -> Option<E>) -> Result<E, Problem>
+    where
+        E: Default,
+    {
+        if self.0.is_empty() {
+            return Ok(E::default());
+        }
+        let name = self.0.to_ascii_uppercase();
+        let name = if name.starts_with(prefix) {
+            name
+        } else {
+            format!("{prefix}{name}")
+        };
+        read(&name).ok_or_else(|| {
+            let detail = "a parameter of the query is none of the names that are due there";
+            Problem::new(StatusCode::BAD_REQUEST, "ENUM", detail)
+        })
+    }
+}
+
+impl EventsQuery {
+    /// The start of the stream; a client that comes back goes on where it was.
+    pub(super) fn start(
+        &self,
+        session: String,
+        resumed: Option<Position>,
+    ) -> Result<v1::SubscribeStart, Problem> {
+        let delivery = self
+            .delivery
+            .number("DELIVERY_", v1::Delivery::from_str_name)?;
+        let space = self
+            .control_space
+            .number("CONTROL_SPACE_", v1::ControlSpace::from_str_name)?;
+        let mut start = v1::SubscribeStart {
+            session,
+            subscriber: self.subscriber.clone(),
+            delivery: delivery.into(),
+            from_sequence: self.from_sequence,
+            control_space: space.into(),
+            max_rate_hz: self.max_rate_hz,
+            with_uncertainty: self.with_uncertainty,
+            run: self.run,
+            from_oldest: self.from_oldest,
+            with_markers: self.with_markers,
+            ..v1::SubscribeStart::default()
+        };
+        // The newest sample is the same wherever the client was; only every frame has a place to go on.
+        if let Some(position) = resumed
+            && delivery == v1::Delivery::EveryFrame
+        {
+            start.run = position.run;
+            start.from_sequence = position.sequence + 1;
+            start.from_oldest = false;
+        }
+        Ok(start)
+    }
+}
+
+/// A place in a session's stream: `run:sequence`, and `run:sequence:end` behind the last sample of an ended session.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(super) struct Position {
+    /// Of the session.
+    pub run: u64,
+    /// Of the last sample; 0: none yet.
+    pub sequence: u64,
+    /// Nothing more comes.
+    pub has_ended: bool,
+}
+
+impl fmt::Display for Position {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let end = if self.has_ended { ":end" } else { "" };
+        write!(f, "{}:{}{end}", self.run, self.sequence)
+    }
+}
+
+impl FromStr for Position {
+    type Err = ();
+
+    fn from_str(text: &str) -> Result<Self, ()> {
+        let (text, has_ended) = match text.strip_suffix(":end") {
+            Some(text) => (text, true),
+            None => (text, false),
+        };
+        let (run, sequence) = text.split_once(':').ok_or(())?;
+        let number = |it: &str| it.parse().ok().filter(|it| *it < u64::MAX);
+        Ok(Self {
+            run: number(run).ok_or(())?,
+            sequence: number(sequence).ok_or(())?,
+            has_ended,
+        })
+    }
+}
+
+/// Where the client left off, if it says so.
+pub(super) fn resumed(headers: &HeaderMap) -> Result<Option<Position>, Problem> {
+    let Some(sent) = headers.get(LAST_EVENT_ID) else {
+        return Ok(None);
+    };
+    let text = sent.to_str().unwrap_or_default().trim();
+    if text.is_empty() {
+        return Ok(None);
+    }
+    text.parse().map(Some).map_err(|()| {
+        let detail = "Last-Event-ID must be run:sequence, the id of the last event";
+        Problem::new(StatusCode::BAD_REQUEST, "EVENT_ID", detail)
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_position_reads_back_as_it_was_written() {
+        for (run, sequence, has_ended) in [(1, 0, false), (3, 120, false), (u64::MAX - 1, 7, true)]
+        {
+            let position = Position {
+                run,
+                sequence,
+                has_ended,
+            };
+            assert_eq!(position.to_string().parse(), Ok(position));
+        }
+        for text in [
+            "",
+            "1",
+            "1:",
+            ":1",
+            "a:b",
+            "1:2:3",
+            "-1:2",
+            "1:18446744073709551615",
+            "1:2:end:end",
+        ] {
+            assert_eq!(text.parse::<Position>(), Err(()), "{text}");
+        }
+    }
+
+    #[test]
+    fn an_enum_is_named_in_full_or_in_short() {
+        for name in ["DELIVERY_EVERY_FRAME", "every_frame", "EVERY_FRAME"] {
+            let query = EventsQuery {
+                delivery: Word(name.into()),
+                ..EventsQuery::default()
+            };
+            let start = query.start("sessions/one".into(), None).unwrap();
+            assert_eq!(start.delivery(), v1::Delivery::EveryFrame);
+        }
+        let query = EventsQuery {
+            delivery: Word("all".into()),
+            ..EventsQuery::default()
+        };
+        assert!(query.start("sessions/one".into(), None).is_err());
+    }
+
+    #[test]
+    fn who_comes_back_goes_on_behind_its_last_sample() {
+        let query = EventsQuery {
+            delivery: Word("every_frame".into()),
+            from_oldest: true,
+            ..EventsQuery::default()
+        };
+        let position = Position {
+            run: 2,
+            sequence: 41,
+            has_ended: false,
+        };
+        let start = query.start("sessions/one".into(), Some(position)).unwrap();
+        assert_eq!(
+            (start.run, start.from_sequence, start.from_oldest),
+            (2, 42, false)
+        );
+    }
+}

@@ -1,0 +1,215 @@
+//! Row E13: peers that say nothing, too much, or half of something, on a paused clock.
+
+use frontalis_proto::v1;
+use futures::stream;
+use tokio::{
+    io::{DuplexStream, duplex},
+    task::JoinHandle,
+    time::{Instant, sleep},
+};
+use tokio_tungstenite::tungstenite::protocol::{Role, WebSocketConfig};
+
+use super::*;
+
+const LIMIT_BYTES: usize = 1_024;
+
+type Answer = Result<v1::SubscribeResponse, Status>;
+
+/// A conversation with a stream that never says anything, and the other end of its connection.
+fn silent() -> (JoinHandle<()>, DuplexStream) {
+    talk(Box::pin(stream::pending()), 64 * 1024)
+}
+
+fn talk(
+    responses: Responses<v1::SubscribeResponse>,
+    n_bytes: usize,
+) -> (JoinHandle<()>, DuplexStream) {
+    let (client, server) = duplex(n_bytes);
+    let talking = tokio::spawn(async move {
+        let config = WebSocketConfig::default()
+            .read_buffer_size(256)
+            .write_buffer_size(0)
+            .max_message_size(Some(LIMIT_BYTES))
+            .max_frame_size(Some(LIMIT_BYTES));
+        let io = Metered::new(server);
+        let socket = WebSocketStream::from_raw_socket(io, Role::Server, Some(config)).await;
+        let topic = Topic {
+            session: "sessions/one".into(),
+            instance: "/here".into(),
+            form: Form::Json,
+            limit_bytes: LIMIT_BYTES,
+            finishes: false,
+        };
+        // As the contract's stream does: requests are read, and a broken one ends it.
+        let (inbox, requests) = mpsc::channel::<Result<v1::SubscribeRequest, Status>>(0);
+        let broken = requests.filter_map(async |it| it.err().map(Answer::Err));
+        let responses = stream::select(broken.chain(stream::pending()), responses);
+        let conversation = Conversation::new(topic, socket, inbox, Box::pin(responses));
+        conversation.run(CancellationToken::new()).await;
+    });
+    (talking, client)
+}
+
+async fn client_of(io: DuplexStream) -> WebSocketStream<DuplexStream> {
+    WebSocketStream::from_raw_socket(io, Role::Client, None).await
+}
+
+/// Reads to the end, without an answer: the code and the reason of the close frame, which the last text explains.
+async fn last_words(mut io: DuplexStream) -> (u16, String) {
+    let mut bytes = Vec::new();
+    io.read_to_end(&mut bytes).await.unwrap();
+    let (mut rest, mut problem) = (bytes.as_slice(), String::new());
+    loop {
+        let (n, payload) = match rest[1] {
+            126 => (u16::from_be_bytes([rest[2], rest[3]]).into(), &rest[4..]),
+            n => (usize::from(n), &rest[2..]),
+        };
+        let text = |from: usize| String::from_utf8(payload[from..n].to_vec()).unwrap();
+        match rest[0] {
+            0x81 => problem = text(0),
+            0x88 => {
+                let reason = text(2);
+                let named = format!("urn:frontalis:problem:{reason}");
+                assert!(problem.contains(&named), "{problem}");
+                assert!(problem.contains(r#""instance":"/here""#), "{problem}");
+                return (u16::from_be_bytes([payload[0], payload[1]]), reason);
+            }
+            _ => {}
+        }
+        rest = &payload[n..];
+    }
+}
+
+#[tokio::test(start_paused = true)]
+async fn e13_a_peer_that_sends_no_pong_is_closed_after_thirty_seconds() {
+    let (talking, io) = silent();
+    let began = Instant::now();
+    talking.await.unwrap();
+    let silence = began.elapsed();
+    assert!((30..=34).contains(&silence.as_secs()), "{silence:?}");
+    assert_eq!(last_words(io).await, (1008, "NO_PONG".to_owned()));
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_peer_that_answers_pings_may_say_nothing_else() {
+    let (talking, io) = silent();
+    let mut client = client_of(io).await;
+    let mut n_pings = 0;
+    let reading = async {
+        while let Some(Ok(message)) = client.next().await {
+            assert!(matches!(message, Message::Ping(_)), "{message}");
+            n_pings += 1;
+        }
+    };
+    drop(timeout(Duration::from_secs(600), reading).await);
+    assert!((50..=60).contains(&n_pings), "{n_pings}");
+    assert!(!talking.is_finished());
+}
+
+#[tokio::test(start_paused = true)]
+async fn e13_a_ping_flood_is_closed() {
+    let (_talking, mut io) = silent();
+    let ping = [&[0x89, 0x84, 0, 0, 0, 0][..], b"beat"].concat();
+    io.write_all(&ping.repeat(200)).await.unwrap();
+    assert_eq!(last_words(io).await, (1008, "PING_FLOOD".to_owned()));
+}
+
+#[tokio::test(start_paused = true)]
+async fn f5_a_message_that_drips_in_is_closed_after_ten_seconds() {
+    let (talking, mut io) = silent();
+    let began = Instant::now();
+    // A masked text frame of 100 bytes, one byte a second, and a pong between fragments changes nothing.
+    let mut bytes = vec![0x81, 0xe4, 0, 0, 0, 0];
+    bytes.extend([b' '; 100]);
+    for byte in bytes {
+        if talking.is_finished() || io.write_all(&[byte]).await.is_err() {
+            break;
+        }
+        sleep(Duration::from_secs(1)).await;
+    }
+    let elapsed = began.elapsed();
+    assert!((10..=15).contains(&elapsed.as_secs()), "{elapsed:?}");
+    assert_eq!(last_words(io).await, (1008, "MESSAGE_DEADLINE".to_owned()));
+}
+
+#[tokio::test(start_paused = true)]
+async fn e13_endless_empty_fragments_are_closed_after_ten_seconds() {
+    let (talking, mut io) = silent();
+    let began = Instant::now();
+    io.write_all(&[0x01, 0x80, 0, 0, 0, 0]).await.unwrap();
+    while !talking.is_finished() {
+        // Continuations of nothing, with pongs between them.
+        let parts = [[0x00, 0x80, 0, 0, 0, 0], [0x8a, 0x80, 0, 0, 0, 0]].concat();
+        if io.write_all(&parts).await.is_err() {
+            break;
+        }
+        sleep(Duration::from_secs(1)).await;
+    }
+    let elapsed = began.elapsed();
+    assert!((10..=15).contains(&elapsed.as_secs()), "{elapsed:?}");
+    assert_eq!(last_words(io).await, (1008, "MESSAGE_DEADLINE".to_owned()));
+}
+
+#[tokio::test(start_paused = true)]
+async fn f4_a_peer_that_talks_and_does_not_read_is_cut_after_thirty_seconds() {
+    let endless = stream::repeat_with(|| Ok(v1::SubscribeResponse::default()));
+    let (talking, mut io) = talk(Box::pin(endless), 512);
+    let began = Instant::now();
+    let grant = [&[0x81, 0x82, 0, 0, 0, 0][..], b"{}"].concat();
+    while !talking.is_finished() {
+        drop(io.write_all(&grant).await);
+        sleep(Duration::from_secs(1)).await;
+    }
+    let elapsed = began.elapsed();
+    assert!((30..=34).contains(&elapsed.as_secs()), "{elapsed:?}");
+}
+
+#[tokio::test(start_paused = true)]
+async fn e13_what_breaks_the_protocol_has_the_close_code_of_its_kind() {
+    let text = |opcode: u8, payload: &[u8]| {
+        let n = u8::try_from(payload.len()).unwrap();
+        [&[opcode, 0x80 | n, 0, 0, 0, 0][..], payload].concat()
+    };
+    let large = [&[0x81, 0xff, 0, 0, 0, 0, 4, 0, 0, 0, 0, 0, 0, 0][..]].concat();
+    let fragments: Vec<u8> = std::iter::once(text(0x01, &[b' '; 100]))
+        .chain(std::iter::repeat_n(text(0x00, &[b' '; 100]), 20))
+        .flatten()
+        .collect();
+    for (sent, code, reason) in [
+        (text(0x82, b"\x10\x02"), 1003, "MESSAGE_FORM"),
+        (large, 1009, "MESSAGE_SIZE"),
+        (fragments, 1009, "MESSAGE_SIZE"),
+        (text(0xf1, b"{}"), 1002, "WEBSOCKET"),
+        (text(0x83, b"{}"), 1002, "WEBSOCKET"),
+        (text(0x00, b"{}"), 1002, "WEBSOCKET"),
+        (vec![0x81, 0x02, b'{', b'}'], 1002, "WEBSOCKET"),
+        (text(0x81, b"\xff\xfe"), 1007, "UTF8"),
+        (text(0x81, b"{"), 1007, "JSON"),
+        (text(0x81, b"{\"nothing\":1}"), 1007, "JSON"),
+    ] {
+        let (_talking, mut io) = silent();
+        io.write_all(&sent).await.unwrap();
+        assert_eq!(last_words(io).await, (code, reason.to_owned()), "{sent:x?}");
+    }
+}
+
+#[tokio::test(start_paused = true)]
+async fn one_that_has_not_begun_when_the_server_closes_is_told_so() {
+    let (io, server) = duplex(1_024);
+    let socket = WebSocketStream::from_raw_socket(Metered::new(server), Role::Server, None).await;
+    let topic = Topic {
+        session: "sessions/one".into(),
+        instance: "/here".into(),
+        form: Form::Protobuf,
+        limit_bytes: LIMIT_BYTES,
+        finishes: false,
+    };
+    let (inbox, _requests) = mpsc::channel::<Result<v1::SubscribeRequest, Status>>(0);
+    let silent: Responses<v1::SubscribeResponse> = Box::pin(stream::pending());
+    let closing = CancellationToken::new();
+    let conversation = Conversation::new(topic, socket, inbox, silent);
+    let talking = tokio::spawn(conversation.run(closing.clone()));
+    closing.cancel();
+    talking.await.unwrap();
+    assert_eq!(last_words(io).await, (1001, "DRAINING".to_owned()));
+}
