@@ -7,8 +7,10 @@
 //! `tests/generated_is_current.rs` fails when it is stale and says how to make it anew.
 
 mod field_mask;
+mod timestamp;
 
 pub use field_mask::FieldMask;
+pub use timestamp::Timestamp;
 
 /// Version 1 of the protocol.
 #[expect(

@@ -18,8 +18,11 @@ const PROTO_FILES: [&str; 7] = [
 /// Types of Google's that have a JSON form of their own, and where they are.
 const WELL_KNOWN: (&str, &str) = (".google.protobuf", "::pbjson_types");
 
-/// The one of them that `pbjson_types` lacks.
-const FIELD_MASK: (&str, &str) = (".google.protobuf.FieldMask", "crate::FieldMask");
+/// Those that `pbjson_types` lacks, or writes other than the mapping asks.
+const OWN: [(&str, &str); 2] = [
+    (".google.protobuf.FieldMask", "crate::FieldMask"),
+    (".google.protobuf.Timestamp", "crate::Timestamp"),
+];
 
 #[test]
 fn generated_code_is_current() {
@@ -31,7 +34,8 @@ fn generated_code_is_current() {
         .register_descriptors(&binary)
         .unwrap()
         .extern_path(WELL_KNOWN.0, WELL_KNOWN.1)
-        .extern_path(FIELD_MASK.0, FIELD_MASK.1)
+        .extern_path(OWN[0].0, OWN[0].1)
+        .extern_path(OWN[1].0, OWN[1].1)
         .out_dir(fresh.path())
         .build(&[".frontalis.v1"])
         .unwrap();
@@ -40,7 +44,8 @@ fn generated_code_is_current() {
         .emit_rerun_if_changed(false)
         .compile_well_known_types(true)
         .extern_path(WELL_KNOWN.0, WELL_KNOWN.1)
-        .extern_path(FIELD_MASK.0, FIELD_MASK.1)
+        .extern_path(OWN[0].0, OWN[0].1)
+        .extern_path(OWN[1].0, OWN[1].1)
         .out_dir(fresh.path())
         .compile_fds(descriptors)
         .unwrap();

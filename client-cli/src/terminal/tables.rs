@@ -329,13 +329,7 @@ pub fn seconds(duration: pbjson_types::Duration) -> f64 {
 }
 
 /// `2026-11-22T16:59:09Z`, or nothing.
-pub fn timestamp(time: Option<&pbjson_types::Timestamp>) -> String {
-    time.map(|it| {
-        prost_types::Timestamp {
-            seconds: it.seconds,
-            nanos: 0,
-        }
-        .to_string()
-    })
-    .unwrap_or_default()
+pub fn timestamp(time: Option<&frontalis_proto::Timestamp>) -> String {
+    time.map(|it| frontalis_proto::Timestamp { nanos: 0, ..*it }.to_rfc3339())
+        .unwrap_or_default()
 }

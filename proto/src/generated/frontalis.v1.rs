@@ -170,7 +170,7 @@ pub struct Actor {
     #[prost(uint32, tag = "3")]
     pub revision: u32,
     #[prost(message, optional, tag = "4")]
-    pub create_time: ::core::option::Option<::pbjson_types::Timestamp>,
+    pub create_time: ::core::option::Option<crate::Timestamp>,
     #[prost(message, repeated, tag = "5")]
     pub muscles: ::prost::alloc::vec::Vec<Muscle>,
     #[prost(message, repeated, tag = "6")]
@@ -1242,7 +1242,7 @@ pub struct Session {
     #[prost(message, optional, tag = "5")]
     pub settings: ::core::option::Option<SessionSettings>,
     #[prost(message, optional, tag = "6")]
-    pub create_time: ::core::option::Option<::pbjson_types::Timestamp>,
+    pub create_time: ::core::option::Option<crate::Timestamp>,
     #[prost(message, optional, tag = "7")]
     pub status: ::core::option::Option<SessionStatus>,
 }
@@ -3824,9 +3824,9 @@ pub struct Take {
     #[prost(uint32, tag = "6")]
     pub number: u32,
     #[prost(message, optional, tag = "7")]
-    pub start_time: ::core::option::Option<::pbjson_types::Timestamp>,
+    pub start_time: ::core::option::Option<crate::Timestamp>,
     #[prost(message, optional, tag = "8")]
-    pub stop_time: ::core::option::Option<::pbjson_types::Timestamp>,
+    pub stop_time: ::core::option::Option<crate::Timestamp>,
     #[prost(uint64, tag = "9")]
     pub first_frame: u64,
     #[prost(uint64, tag = "10")]
@@ -4910,7 +4910,7 @@ pub struct Server {
     #[prost(string, tag = "1")]
     pub version: ::prost::alloc::string::String,
     #[prost(message, optional, tag = "2")]
-    pub start_time: ::core::option::Option<::pbjson_types::Timestamp>,
+    pub start_time: ::core::option::Option<crate::Timestamp>,
     /// this port speaks TLS
     #[prost(bool, tag = "3")]
     pub tls: bool,
@@ -4939,7 +4939,7 @@ pub struct Principal {
     pub sessions: ::prost::alloc::vec::Vec<::prost::alloc::string::String>,
     /// absent: does not expire
     #[prost(message, optional, tag = "4")]
-    pub expire_time: ::core::option::Option<::pbjson_types::Timestamp>,
+    pub expire_time: ::core::option::Option<crate::Timestamp>,
 }
 #[derive(Clone, Copy, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct GetServerRequest {}

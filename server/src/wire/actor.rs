@@ -4,8 +4,8 @@ use frontalis_analysis::{
     face::{actor::Actor, marker::Marker, muscle::Muscle, region::FaceRegion},
     space::LengthUnit,
 };
+use frontalis_proto::Timestamp;
 use frontalis_proto::v1;
-use pbjson_types::Timestamp;
 
 use super::invalid::{FieldError, FieldProblem};
 use crate::{

@@ -1,7 +1,7 @@
 //! `ServerService`: what this server is, and who asks.
 
+use frontalis_proto::Timestamp;
 use frontalis_proto::v1::{self, server_service_server::ServerService};
-use pbjson_types::Timestamp;
 use tonic::{Request, Response, Status};
 
 use crate::{clock::ServerClock, shutdown::Phases, wire};

@@ -4,7 +4,7 @@
 //! form only.
 
 use prost_types::{
-    DescriptorProto, EnumDescriptorProto, FieldDescriptorProto,
+    DescriptorProto, EnumDescriptorProto, EnumValueDescriptorProto, FieldDescriptorProto,
     field_descriptor_proto::{Label, Type},
 };
 use serde_json::{Map, Value, json};
@@ -39,9 +39,9 @@ pub(super) fn message(message: &Described<DescriptorProto>, read: bool) -> Value
 
 pub(super) fn enumeration(values: &Described<EnumDescriptorProto>, read: bool) -> Value {
     let all = values.descriptor.value.iter();
-    let names: Vec<&str> = all.clone().map(|it| it.name()).collect();
+    let names: Vec<&str> = all.clone().map(EnumValueDescriptorProto::name).collect();
     let mut schema = if read {
-        let numbers: Vec<i32> = all.clone().map(|it| it.number()).collect();
+        let numbers: Vec<i32> = all.clone().map(EnumValueDescriptorProto::number).collect();
         json!({ "enum": mixed(&names, &numbers) })
     } else {
         json!({ "type": "string", "enum": names })
