@@ -5,10 +5,13 @@
 mod actor_packages;
 mod leases;
 mod marker_frames;
+mod memory;
+mod messages;
 mod names;
 mod packages_glb;
 mod positions;
 mod protocol_order;
+mod protocols;
 
 use frontalis_server::config::Config;
 use harness::{ControlSession, Publisher, Subscriber, TestPerformance, TestServer, every_frame};
@@ -59,7 +62,15 @@ async fn beside_a_control_session_with(
     change: impl FnOnce(&mut Config),
     test: impl AsyncFnOnce(&Stage),
 ) {
-    let server = TestServer::start_with(change).await;
+    beside_a_control_session_of(row, TestServer::start_with(change).await, test).await;
+}
+
+/// The same on a server that runs already.
+async fn beside_a_control_session_of(
+    row: &str,
+    server: TestServer,
+    test: impl AsyncFnOnce(&Stage),
+) {
     server.import_reference().await;
     server
         .create_session("subject", "actors/reference")

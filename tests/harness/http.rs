@@ -1,7 +1,7 @@
 //! Plain HTTP against the server's one port.
 
-use http_body_util::{BodyExt as _, Empty};
-use hyper::{Method, Request, StatusCode, body::Bytes, client::conn::http1};
+use http_body_util::{BodyExt as _, Full};
+use hyper::{HeaderMap, Method, Request, StatusCode, body::Bytes, client::conn::http1};
 use hyper_util::rt::TokioIo;
 use serde_json::Value;
 use tokio::net::TcpStream;
@@ -13,6 +13,8 @@ use crate::TestServer;
 pub struct HttpAnswer {
     /// The status.
     pub status: StatusCode,
+    /// The headers.
+    pub headers: HeaderMap,
     /// The content type; empty when there is none.
     pub content_type: String,
     /// The body.
@@ -33,26 +35,44 @@ impl HttpAnswer {
 
 /// `GET path` on a connection of its own.
 pub async fn http_get(server: &TestServer, path: &str) -> HttpAnswer {
+    http_send(server, &Method::GET, path, &[], b"").await
+}
+
+/// Any request on a connection of its own, over HTTP/1.1.
+pub async fn http_send(
+    server: &TestServer,
+    method: &Method,
+    path: &str,
+    headers: &[(&str, &str)],
+    body: &[u8],
+) -> HttpAnswer {
     let stream = TcpStream::connect(server.address()).await.unwrap();
     let (mut sender, connection) = http1::handshake(TokioIo::new(stream)).await.unwrap();
-    let connection = tokio::spawn(connection);
-    let request = Request::builder()
-        .method(Method::GET)
+    // The server may close first, when it refuses a body that it did not read.
+    let connection = tokio::spawn(async move { drop(connection.await) });
+    let mut request = Request::builder()
+        .method(method)
         .uri(path)
-        .header("host", server.address().to_string())
-        .body(Empty::<Bytes>::new())
+        .header("host", server.address().to_string());
+    for (name, value) in headers {
+        request = request.header(*name, *value);
+    }
+    let body = Full::new(Bytes::copy_from_slice(body));
+    let answer = sender
+        .send_request(request.body(body).unwrap())
+        .await
         .unwrap();
-    let answer = sender.send_request(request).await.unwrap();
     let status = answer.status();
-    let content_type = answer
-        .headers()
+    let headers = answer.headers().clone();
+    let content_type = headers
         .get("content-type")
         .map_or_else(String::new, |it| it.to_str().unwrap().to_owned());
     let body = answer.into_body().collect().await.unwrap().to_bytes();
     drop(sender);
-    connection.await.unwrap().unwrap();
+    connection.await.unwrap();
     HttpAnswer {
         status,
+        headers,
         content_type,
         body,
     }

@@ -16,6 +16,8 @@ use tonic::{
     transport::{Channel, Endpoint},
 };
 
+use crate::server_program::ServerProgram;
+
 /// Size of an import's chunks.
 const CHUNK_BYTES: usize = 256 * 1024;
 
@@ -23,8 +25,16 @@ const CHUNK_BYTES: usize = 256 * 1024;
 pub struct TestServer {
     config: Config,
     folder: TempDir,
-    shutdown: CancellationToken,
-    running: Server,
+    running: Running,
+}
+
+/// In this process, or a program of its own.
+enum Running {
+    Inside {
+        server: Server,
+        shutdown: CancellationToken,
+    },
+    Program(Box<ServerProgram>),
 }
 
 impl TestServer {
@@ -42,22 +52,49 @@ impl TestServer {
             ..Config::default()
         };
         change(&mut config);
-        let (running, shutdown) = spawn(&config).await;
+        let running = spawn(&config).await;
         Self {
             config,
             folder,
-            shutdown,
             running,
+        }
+    }
+
+    /// Starts the program itself, with other settings than the defaults: its memory is that of the server alone.
+    pub async fn start_program(change: impl FnOnce(&mut Config)) -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        let mut config = Config {
+            listen: SocketAddr::from(([127, 0, 0, 1], 0)),
+            data_dir: folder.path().to_str().unwrap().to_owned(),
+            ..Config::default()
+        };
+        change(&mut config);
+        let file = folder.path().join("frontalis.toml");
+        std::fs::write(&file, config.to_toml()).unwrap();
+        let started = tokio::task::spawn_blocking(move || ServerProgram::start(&file));
+        Self {
+            config,
+            folder,
+            running: Running::Program(Box::new(started.await.unwrap())),
+        }
+    }
+
+    /// The program that was started.
+    pub fn program(&self) -> &ServerProgram {
+        match &self.running {
+            Running::Program(program) => program,
+            Running::Inside { .. } => panic!("this server is no program of its own"),
         }
     }
 
     /// Drains the server and waits until it is gone.
     pub async fn stop(self) -> TempDir {
         self.begin_drain();
-        assert!(
-            self.running.stopped().await,
-            "the drain took longer than its grace"
-        );
+        let clean = match self.running {
+            Running::Inside { server, .. } => server.stopped().await,
+            Running::Program(mut program) => program.wait().await,
+        };
+        assert!(clean, "the drain took longer than its grace");
         self.folder
     }
 
@@ -74,23 +111,28 @@ impl TestServer {
         let (address, mut config) = (self.address(), self.config.clone());
         let folder = self.stop().await;
         config.listen = address;
-        let (running, shutdown) = spawn(&config).await;
+        let running = spawn(&config).await;
         Self {
             config,
             folder,
-            shutdown,
             running,
         }
     }
 
     /// What SIGTERM does, without waiting.
     pub fn begin_drain(&self) {
-        self.shutdown.cancel();
+        match &self.running {
+            Running::Inside { shutdown, .. } => shutdown.cancel(),
+            Running::Program(program) => program.terminate(),
+        }
     }
 
     /// Where it listens.
     pub fn address(&self) -> SocketAddr {
-        self.running.address()
+        match &self.running {
+            Running::Inside { server, .. } => server.address(),
+            Running::Program(program) => program.address(),
+        }
     }
 
     /// Where it listens, as a client writes it.
@@ -223,9 +265,11 @@ impl TestServer {
     }
 }
 
-async fn spawn(config: &Config) -> (Server, CancellationToken) {
+async fn spawn(config: &Config) -> Running {
     let listener = TcpListener::bind(config.listen).await.unwrap();
     let shutdown = CancellationToken::new();
-    let running = frontalis_server::run(config.clone(), listener, shutdown.clone());
-    (running.await.unwrap(), shutdown)
+    let server = frontalis_server::run(config.clone(), listener, shutdown.clone())
+        .await
+        .unwrap();
+    Running::Inside { server, shutdown }
 }

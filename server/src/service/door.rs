@@ -30,7 +30,7 @@ use super::{
         takes::TakesGrpc,
     },
     guard::{self, Guard},
-    http::{self, Doors, GrpcPanic, grpc_only, unknown, with_instance},
+    http::{self, Doors, GrpcPanic, grpc_only, http_only, unknown, with_instance},
     panics,
 };
 use crate::{config::SMALL_MESSAGE_BYTES, telemetry::Metrics};
@@ -147,7 +147,8 @@ pub async fn router(
         .layer(middleware::from_fn_with_state(
             services.calls,
             calls::admit_http,
-        ));
+        ))
+        .layer(middleware::from_fn(http_only));
     let router = http
         .merge(grpc)
         .fallback(move |request| count_unknown(metrics.clone(), request))

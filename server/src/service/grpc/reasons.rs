@@ -35,7 +35,11 @@ fn complete_status(headers: &mut HeaderMap) {
     if status.code() == Code::Ok || reason_of(&status).is_some() {
         return;
     }
-    let refused = refuse(status.code(), reason(&status), status.message());
+    let message = match status.message() {
+        "" => status.code().description(),
+        message => message,
+    };
+    let refused = refuse(status.code(), reason(&status), message);
     // A message that fits no header was refused before it came here.
     drop(refused.add_header(headers));
 }
@@ -54,6 +58,7 @@ fn reason(status: &Status) -> &'static str {
         Code::FailedPrecondition => "FAILED_PRECONDITION",
         Code::Aborted => "ABORTED",
         Code::OutOfRange => "MESSAGE_SIZE",
+        // The services refuse nothing so without a reason of theirs; what is left is a method that is not there.
         Code::Unimplemented => "METHOD",
         Code::Internal if UNREADABLE.iter().any(|it| status.message().starts_with(it)) => {
             "PROTOBUF"

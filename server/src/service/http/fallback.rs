@@ -24,6 +24,15 @@ pub async fn unknown(request: Request) -> Response {
         let status = refuse(Code::Unimplemented, "METHOD", "there is no such method");
         return grpc(status, door);
     }
+    if matches!(*request.method(), Method::TRACE | Method::CONNECT) {
+        let problem = Problem::new(
+            StatusCode::METHOD_NOT_ALLOWED,
+            "HTTP_METHOD",
+            "this server has nothing to trace and nowhere to connect to",
+        );
+        // Allowed here is nothing.
+        return ([(header::ALLOW, "")], problem).into_response();
+    }
     Problem::new(
         StatusCode::NOT_FOUND,
         "ROUTE",
@@ -49,6 +58,14 @@ pub(super) async fn method_not_allowed(request: Request) -> Response {
         "this path has other methods; the header allow names them",
     )
     .into_response()
+}
+
+/// Lets no gRPC pass to the routes of plain HTTP.
+pub async fn http_only(request: Request, next: Next) -> Response {
+    if grpc_door(request.headers()).is_some() {
+        return method_not_allowed(request).await;
+    }
+    next.run(request).await
 }
 
 /// Lets only gRPC and gRPC-web pass to the gRPC services.

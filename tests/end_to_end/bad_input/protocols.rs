@@ -1,0 +1,202 @@
+//! Rows E10 and E11: the wrong protocol for a path, and deadlines that mean nothing.
+
+use frontalis_proto::v1::GetSessionRequest;
+use harness::{RawConnection, assert_refused, encoded, http_send};
+use hyper::{Method, StatusCode};
+use tonic::Code;
+
+use super::{SUBJECT, beside_a_control_session};
+
+const GET: &str = "/frontalis.v1.SessionService/GetSession";
+const PUBLISH: &str = "/frontalis.v1.CaptureService/PublishMarkers";
+const FOLLOW: &str = "/frontalis.v1.CurveService/Follow";
+
+fn request() -> Vec<u8> {
+    encoded(&GetSessionRequest {
+        name: SUBJECT.to_owned(),
+    })
+}
+
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn e10_another_content_type_on_a_grpc_path_is_415() {
+    beside_a_control_session("E10 content type", async |stage| {
+        for kind in [
+            "application/json",
+            "text/plain",
+            "application/grpcx",
+            "application/grpc-other",
+            "",
+        ] {
+            let headers = [("content-type", kind)];
+            let answer = http_send(&stage.server, &Method::POST, GET, &headers, b"{}").await;
+            assert_problem(&answer, StatusCode::UNSUPPORTED_MEDIA_TYPE, "CONTENT_TYPE");
+        }
+        let answer = http_send(&stage.server, &Method::POST, GET, &[], b"").await;
+        assert_problem(&answer, StatusCode::UNSUPPORTED_MEDIA_TYPE, "CONTENT_TYPE");
+    })
+    .await;
+}
+
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn e10_grpc_over_http_1_is_unimplemented() {
+    beside_a_control_session("E10 HTTP/1.1", async |stage| {
+        let headers = [("content-type", "application/grpc")];
+        let answer = http_send(&stage.server, &Method::POST, GET, &headers, &request()).await;
+        let status = tonic::Status::from_header_map(&answer.headers).unwrap();
+        assert_refused(&status, Code::Unimplemented, "HTTP_VERSION");
+    })
+    .await;
+}
+
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn e10_grpc_where_there_is_no_such_method_is_unimplemented() {
+    beside_a_control_session("E10 methods", async |stage| {
+        let mut connection = RawConnection::open(&stage.server).await;
+        for path in [
+            "/frontalis.v1.SessionService/Nothing",
+            "/frontalis.v1.NothingService/GetSession",
+            "/frontalis.v2.SessionService/GetSession",
+            "/frontalis.v1.SessionService/",
+            "/frontalis.v1.SessionService/GetSession/more",
+            "/api/v1/sessions",
+            "/api/v1/sessions/subject",
+            "/healthz",
+            "/nothing",
+            "/",
+        ] {
+            let answer = connection.answer(path, &request()).await;
+            assert_eq!(answer.http, StatusCode::OK, "{path}: {answer:?}");
+            let refused = answer.status();
+            assert_refused(&refused, Code::Unimplemented, "METHOD");
+        }
+    })
+    .await;
+}
+
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn e10_unknown_paths_and_methods_over_http_are_404_and_405() {
+    beside_a_control_session("E10 HTTP", async |stage| {
+        for path in [
+            "/nothing",
+            "/api/v1/nothing",
+            "/api/v2/sessions",
+            "/api/v1/sessions/s/x",
+        ] {
+            let answer = http_send(&stage.server, &Method::GET, path, &[], b"").await;
+            assert_problem(&answer, StatusCode::NOT_FOUND, "ROUTE");
+        }
+        for (method, path) in [
+            (Method::TRACE, "/"),
+            (Method::TRACE, "/api/v1/sessions"),
+            (Method::TRACE, "/nothing"),
+            (Method::TRACE, GET),
+            (Method::CONNECT, "example.com:443"),
+            (Method::DELETE, "/healthz"),
+            (Method::PUT, "/api/v1/sessions"),
+            (Method::GET, GET),
+            (Method::DELETE, PUBLISH),
+        ] {
+            let answer = http_send(&stage.server, &method, path, &[], b"").await;
+            assert_problem(&answer, StatusCode::METHOD_NOT_ALLOWED, "HTTP_METHOD");
+            assert!(answer.headers.contains_key("allow"), "{method} {path}");
+        }
+    })
+    .await;
+}
+
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn e10_other_methods_over_http_2_are_405() {
+    beside_a_control_session("E10 HTTP/2", async |stage| {
+        let mut connection = RawConnection::open(&stage.server).await;
+        let plain = [("content-type", "text/plain")];
+        for method in [Method::TRACE, Method::PATCH, Method::GET] {
+            for path in [GET, PUBLISH] {
+                let mut call = connection.request(&method, path, &plain).await;
+                call.finish();
+                let answer = call.answer().await;
+                assert_eq!(
+                    answer.http,
+                    StatusCode::METHOD_NOT_ALLOWED,
+                    "{method} {path}"
+                );
+                assert_eq!(answer.headers["allow"], "POST");
+            }
+        }
+    })
+    .await;
+}
+
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn e11_a_deadline_that_is_over_is_exceeded() {
+    beside_a_control_session("E11 over", async |stage| {
+        let mut connection = RawConnection::open(&stage.server).await;
+        for path in [GET, PUBLISH, FOLLOW, "/grpc.health.v1.Health/Watch"] {
+            for timeout in ["1n", "0n", "999u", "0S"] {
+                let mut call = connection.call(path, &[("grpc-timeout", timeout)]).await;
+                call.send(&request()).await;
+                let refused = call.answer().await.status();
+                assert_refused(&refused, Code::DeadlineExceeded, "DEADLINE");
+            }
+        }
+    })
+    .await;
+}
+
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn e11_a_stream_is_cut_at_its_deadline_with_what_was_sent_before() {
+    beside_a_control_session("E11 cut", async |stage| {
+        let _publisher = stage.publisher().await;
+        let start = encoded(&harness::every_frame(SUBJECT));
+        let mut connection = RawConnection::open(&stage.server).await;
+        for timeout in ["300m", "300000u", "1S"] {
+            let mut call = connection.call(FOLLOW, &[("grpc-timeout", timeout)]).await;
+            call.send(&start).await;
+            call.finish();
+            let answer = call.answer().await;
+            assert!(!answer.body.is_empty(), "nothing came before the deadline");
+            assert_refused(&answer.status(), Code::DeadlineExceeded, "DEADLINE");
+        }
+    })
+    .await;
+}
+
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn e11_huge_deadlines_are_capped_and_malformed_ones_ignored() {
+    beside_a_control_session("E11 odd", async |stage| {
+        let mut connection = RawConnection::open(&stage.server).await;
+        for timeout in [
+            "99999999H",
+            "99999999S",
+            "1",
+            "S",
+            "",
+            "-1S",
+            "+1n",
+            "1 n",
+            "1x",
+            "1N",
+            "0x1n",
+            "123456789n",
+            "1.5n",
+            "1n1n",
+        ] {
+            let mut call = connection.call(GET, &[("grpc-timeout", timeout)]).await;
+            call.send(&request()).await;
+            call.finish();
+            let answer = call.answer().await.status();
+            assert_eq!(answer.code(), Code::Ok, "{timeout:?}: {answer:?}");
+        }
+    })
+    .await;
+}
+
+#[track_caller]
+fn assert_problem(answer: &harness::HttpAnswer, status: StatusCode, reason: &str) {
+    let text = String::from_utf8_lossy(&answer.body);
+    assert_eq!(answer.status, status, "{text}");
+    assert_eq!(answer.content_type, "application/problem+json", "{text}");
+    let body = answer.json();
+    assert_eq!(body["type"], format!("urn:frontalis:problem:{reason}"));
+    assert_eq!(body["status"], status.as_u16());
+    assert!(body["instance"].is_string(), "{text}");
+}
