@@ -75,7 +75,7 @@ pub enum CatalogueError {
         holder: String,
     },
     /// No session of that id.
-    #[error("no such session")]
+    #[error("there is no session of this name")]
     NoSession,
     /// A session of that id exists and has not ended.
     #[error("a session of this id exists and has not ended")]

@@ -45,6 +45,13 @@ impl ServerClock {
     }
 }
 
+/// The machine's wall clock, for what people date: when a token expires, when a line of a log was written.
+///
+/// It may step; order, leases and timeouts never look at it.
+pub fn wall_now() -> SystemTime {
+    SystemTime::now()
+}
+
 /// A duration in whole nanoseconds, saturating after 292 years.
 pub fn nanos(duration: Duration) -> i64 {
     i64::try_from(duration.as_nanos()).unwrap_or(i64::MAX)

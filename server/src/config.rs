@@ -98,6 +98,10 @@ pub struct Limits {
     pub exports: u64,
     /// Actors that stay loaded besides those in use.
     pub cached_actors: u64,
+    /// Proofs that prove nothing, of one address and of one token, in a minute.
+    pub auth_failures_per_minute: u32,
+    /// Sessions that one publisher's token may create in a minute.
+    pub session_creations_per_minute: u32,
 }
 
 /// Buffers and deadlines of connections (CONTRACTS D-20, D-25, S-9).
@@ -167,6 +171,8 @@ impl Default for Limits {
             imports: 2,
             exports: 2,
             cached_actors: 16,
+            auth_failures_per_minute: 10,
+            session_creations_per_minute: 30,
         }
     }
 }

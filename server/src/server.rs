@@ -1,6 +1,6 @@
 //! One server from start to end: everything that runs is started here and joined here.
 
-use std::{io, net::SocketAddr, time::Duration};
+use std::{io, net::SocketAddr, path::Path, time::Duration};
 
 use tokio::{net::TcpListener, sync::mpsc, time::timeout};
 use tokio_util::{sync::CancellationToken, task::TaskTracker};
@@ -14,10 +14,12 @@ use crate::{
     fs::MemFs,
     reload::Reload,
     service::{
+        access::{self, Access, TokenSourceError},
+        audit::{Audit, AuditLog},
         calls::Calls,
         door::{self, ReflectionError, Services},
         grpc::{
-            actors::ActorsGrpc,
+            actors::{ActorLimits, ActorsGrpc},
             capture::CaptureGrpc,
             curves::CurvesGrpc,
             server::{Protection, ServerGrpc},
@@ -49,6 +51,12 @@ pub enum RunError {
     /// The data directory cannot be used.
     #[error("the catalogue cannot be opened")]
     Catalogue(#[from] CatalogueError),
+    /// The token file cannot be used.
+    #[error(transparent)]
+    Tokens(#[from] TokenSourceError),
+    /// The audit log cannot be opened.
+    #[error("the audit log cannot be opened")]
+    Audit(#[source] io::Error),
     /// The port cannot be used.
     #[error("the port cannot be used")]
     Port(#[from] io::Error),
@@ -122,15 +130,24 @@ pub async fn run(
 
     let heavy = Workers::pool(count(config.workers));
     let store = open_store(&config, heavy.clone()).await?;
+    let audit_log = audit_log(&config)?;
+    let (audit, audited) = Audit::new();
     let (events, kept) = mpsc::channel(EVENT_CAPACITY);
     let limits = session_limits(&config.limits);
     let registry = SessionRegistry::new(limits.clone(), clock, events);
     let sessions = Sessions::new(store.clone(), registry.clone(), clock, limits.sessions);
     let phases = Phases::default();
     let services = Services {
-        actors: actors(&config.limits, store.clone(), clock, heavy),
-        sessions: SessionsGrpc(sessions.clone()),
-        capture: CaptureGrpc::new(registry.clone(), store.clone(), clock),
+        actors: ActorsGrpc::new(
+            store.clone(),
+            registry.clone(),
+            clock,
+            heavy,
+            actor_limits(&config.limits),
+            audit.clone(),
+        ),
+        sessions: SessionsGrpc::new(sessions.clone(), audit.clone()),
+        capture: CaptureGrpc::new(registry.clone(), store.clone(), clock, audit.clone()),
         curves: CurvesGrpc::new(registry.clone(), store.clone(), clock),
         server: ServerGrpc::new(clock, protection, phases.clone()),
         max_message_bytes: config.limits.message_bytes(),
@@ -142,10 +159,13 @@ pub async fn run(
         metrics: metrics.clone(),
         phases: phases.clone(),
     };
-    let (router, health) = door::router(doors, Guard::new(&config, tls.clone())).await?;
+    let access = access(&config, audit, metrics.clone())?;
+    let guard = Guard::new(&config, tls.clone());
+    let (router, health) = door::router(doors, guard, access.clone()).await?;
 
     let drained = CancellationToken::new();
     let upkeep = TaskTracker::new();
+    upkeep.spawn(audit_log.run(audited, drained.clone()));
     let keeper = Keeper {
         store,
         registry: registry.clone(),
@@ -164,6 +184,8 @@ pub async fn run(
         let (reloads, end) = (reload.listen(), phases.closing.clone());
         upkeep.spawn(tls.clone().follow(reloads, metrics.clone(), end));
     }
+    let (reloads, end) = (reload.listen(), phases.closing.clone());
+    upkeep.spawn(access::follow(access, reloads, end));
     let connections = TaskTracker::new();
     let accepting = Listener {
         listener,
@@ -263,16 +285,12 @@ async fn open_store(config: &Config, heavy: Workers) -> Result<Store, CatalogueE
     Ok(Store::new(catalogue, commits, heavy, cached))
 }
 
-fn actors(limits: &Limits, store: Store, clock: ServerClock, heavy: Workers) -> ActorsGrpc {
-    let (imports, exports) = (count(limits.imports), count(limits.exports));
-    ActorsGrpc::new(
-        store,
-        clock,
-        heavy,
-        limits.package_bytes(),
-        imports,
-        exports,
-    )
+fn actor_limits(limits: &Limits) -> ActorLimits {
+    ActorLimits {
+        package_bytes: limits.package_bytes(),
+        imports: count(limits.imports),
+        exports: count(limits.exports),
+    }
 }
 
 fn first_figures(config: &Config, protection: Protection) -> Metrics {
@@ -281,6 +299,21 @@ fn first_figures(config: &Config, protection: Protection) -> Metrics {
     metrics.set_worst_case_bytes(worst_case(config).iter().map(|it| it.bytes).sum());
     metrics.set_ready(true);
     metrics
+}
+
+fn access(config: &Config, audit: Audit, metrics: Metrics) -> Result<Access, TokenSourceError> {
+    if !config.has_tokens() {
+        return Ok(Access::open(&config.limits, audit, metrics));
+    }
+    let path = Path::new(&config.token_file);
+    Access::with_tokens(path, &config.limits, audit, metrics)
+}
+
+fn audit_log(config: &Config) -> Result<AuditLog, RunError> {
+    match config.directory() {
+        Some(directory) => AuditLog::open(&directory).map_err(RunError::Audit),
+        None => Ok(AuditLog::in_memory()),
+    }
 }
 
 async fn load_tls(config: &Config) -> Result<Option<Tls>, RunError> {

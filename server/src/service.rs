@@ -1,6 +1,7 @@
 //! The doors of the server: gRPC and plain HTTP.
 
 pub mod access;
+pub mod audit;
 pub mod calls;
 pub mod deadline;
 pub mod door;

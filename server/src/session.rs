@@ -24,7 +24,9 @@ mod worker;
 pub use error::SessionError;
 pub use frame::{IncomingFrame, Rejection};
 pub use handle::SessionHandle;
-pub use publication::{Grant, Granted, Ingest, Offer, Publication, PublishEnd, Wait, Watermarks};
+pub use publication::{
+    Claim, Grant, Granted, Ingest, Offer, Publication, PublishEnd, Wait, Watermarks,
+};
 pub use registry::SessionRegistry;
 pub use settings::{
     RestoredAlignment, SessionEvent, SessionLimits, SessionSettings, SessionSpec, SessionUpdate,

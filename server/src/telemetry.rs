@@ -31,6 +31,8 @@ struct Inner {
     floods: Family<FloodLabel, Counter>,
     handshake_failures: Family<HandshakeLabel, Counter>,
     certificate_reloads: Family<ReloadLabel, Counter>,
+    authentication_failures: Counter,
+    token_reloads: Family<ReloadLabel, Counter>,
     requests: Family<ProtocolLabel, Counter>,
     panics: Counter,
     calls: Gauge,
@@ -186,6 +188,8 @@ impl Metrics {
             floods: Family::default(),
             handshake_failures: Family::default(),
             certificate_reloads: Family::default(),
+            authentication_failures: Counter::default(),
+            token_reloads: Family::default(),
             requests: Family::default(),
             panics: Counter::default(),
             calls: Gauge::default(),
@@ -244,6 +248,20 @@ impl Metrics {
         let taken = if taken { "yes" } else { "no" };
         self.0
             .certificate_reloads
+            .get_or_create(&ReloadLabel { taken })
+            .inc();
+    }
+
+    /// A proof of identity proved nothing.
+    pub fn authentication_failed(&self) {
+        self.0.authentication_failures.inc();
+    }
+
+    /// The token file was read again, and taken or not.
+    pub fn tokens_reloaded(&self, taken: bool) {
+        let taken = if taken { "yes" } else { "no" };
+        self.0
+            .token_reloads
             .get_or_create(&ReloadLabel { taken })
             .inc();
     }
@@ -370,6 +388,16 @@ impl Inner {
             "tls_certificate_reloads",
             "Certificates that were read again, by whether they were taken",
             self.certificate_reloads.clone(),
+        );
+        it.register(
+            "authentication_failures",
+            "Proofs of identity that proved nothing",
+            self.authentication_failures.clone(),
+        );
+        it.register(
+            "token_file_reloads",
+            "Token files that were read again, by whether they were taken",
+            self.token_reloads.clone(),
         );
         it.register(
             "requests",

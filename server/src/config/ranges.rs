@@ -1,10 +1,19 @@
 //! What every number of the configuration may be.
 
-use super::Config;
+use super::{Config, Limits, Transport};
 
 /// Key, value, least and most.
-pub(super) fn ranges(config: &Config) -> Vec<(&'static str, u64, u64, u64)> {
-    let (l, t) = (&config.limits, &config.transport);
+type Range = (&'static str, u64, u64, u64);
+
+/// Every number.
+pub(super) fn ranges(config: &Config) -> Vec<Range> {
+    let mut all = general(config);
+    all.extend(limits(&config.limits));
+    all.extend(transport(&config.transport));
+    all
+}
+
+fn general(config: &Config) -> Vec<Range> {
     vec![
         ("shutdown_grace_secs", config.shutdown_grace_secs, 1, 300),
         ("memory_budget_mib", config.memory_budget_mib, 64, 1 << 24),
@@ -15,6 +24,11 @@ pub(super) fn ranges(config: &Config) -> Vec<(&'static str, u64, u64, u64)> {
             1,
             8_760,
         ),
+    ]
+}
+
+fn limits(l: &Limits) -> Vec<Range> {
+    vec![
         ("limits.connections", l.connections, 1, 65_536),
         (
             "limits.connections_per_peer",
@@ -54,6 +68,23 @@ pub(super) fn ranges(config: &Config) -> Vec<(&'static str, u64, u64, u64)> {
         ("limits.calls", l.calls, 1, 1 << 20),
         ("limits.publishers", l.publishers, 1, 65_536),
         ("limits.cached_actors", l.cached_actors, 1, 4_096),
+        (
+            "limits.auth_failures_per_minute",
+            l.auth_failures_per_minute.into(),
+            1,
+            60_000,
+        ),
+        (
+            "limits.session_creations_per_minute",
+            l.session_creations_per_minute.into(),
+            1,
+            60_000,
+        ),
+    ]
+}
+
+fn transport(t: &Transport) -> Vec<Range> {
+    vec![
         (
             "transport.keepalive_interval_secs",
             t.keepalive_interval_secs,

@@ -17,6 +17,7 @@ use tonic_web::GrpcWebLayer;
 use tower_http::catch_panic::CatchPanicLayer;
 
 use super::{
+    access::{Access, authenticate},
     calls::{self, Calls},
     deadline,
     grpc::{
@@ -83,6 +84,7 @@ pub struct ReflectionError(#[from] tonic_reflection::server::Error);
 pub async fn router(
     doors: Doors,
     guard: Guard,
+    access: Access,
 ) -> Result<(Router, HealthReporter), ReflectionError> {
     let services = doors.services.clone();
     let metrics = doors.metrics.clone();
@@ -152,6 +154,7 @@ pub async fn router(
     let router = http
         .merge(grpc)
         .fallback(move |request| count_unknown(metrics.clone(), request))
+        .layer(middleware::from_fn_with_state(access, authenticate))
         .layer(middleware::from_fn_with_state(guard, guard::check))
         .layer(middleware::from_fn(with_instance));
     Ok((router, reporter))

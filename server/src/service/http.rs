@@ -38,7 +38,7 @@ use crate::{
     telemetry::{Metrics, Protocol},
 };
 
-pub use fallback::{GrpcPanic, grpc_only, http_only, unknown};
+pub use fallback::{GrpcPanic, grpc_only, http_only, refuse_in_kind, unknown};
 pub use problem::{Problem, with_instance};
 
 /// What the routes read from.

@@ -27,6 +27,11 @@ use crate::{
     },
 };
 
+/// Rows of the catalogue that are looked at together for a caller who sees few of them.
+const ROWS_AT_ONCE: usize = 256;
+/// Longest id (CONTRACTS S-6).
+const MAX_MADE_ID_BYTES: usize = 63;
+
 /// All sessions of a server. Cheap to clone.
 #[derive(Clone)]
 pub struct Sessions {
@@ -106,7 +111,7 @@ impl Sessions {
         }
         let newest = self.store.actor(&request.actor).await?;
         let new = NewSession {
-            id: request.id.map_or_else(made_id, Ok)?,
+            id: request.id.map_or_else(|| made_id(""), Ok)?,
             display_name: request.display_name.into_string(),
             actor: request.actor,
             actor_revision: newest.revision,
@@ -146,22 +151,46 @@ impl Sessions {
         }
     }
 
-    /// A page of sessions, by id, and the token of the next.
+    /// A page of the sessions that are seen, by id, and the token of the next.
     ///
     /// # Errors
     ///
     /// That the catalogue failed.
-    pub async fn list(&self, page: &Page) -> Result<(Vec<v1::Session>, String), Status> {
-        let mut rows = self
-            .store
-            .sessions(page.after.clone(), page.n_to_read())
-            .await?;
+    pub async fn list(
+        &self,
+        page: &Page,
+        is_seen: impl Fn(&SessionId) -> bool,
+    ) -> Result<(Vec<v1::Session>, String), Status> {
+        let mut rows = self.seen(page, is_seen).await?;
         let next = page.cut(&mut rows, |it| it.session.id.to_string());
         let view = |row: &SessionRow| match self.registry.get(&row.session.id) {
             Ok(handle) => live(&handle),
             Err(_) => ended(row),
         };
         Ok((rows.iter().map(view).collect(), next))
+    }
+
+    /// As many rows as the page reads, of those that are seen.
+    async fn seen(
+        &self,
+        page: &Page,
+        is_seen: impl Fn(&SessionId) -> bool,
+    ) -> Result<Vec<SessionRow>, Status> {
+        let n_wanted = page.n_to_read();
+        let n_at_once = n_wanted.max(ROWS_AT_ONCE);
+        let (mut seen, mut after) = (Vec::new(), page.after.clone());
+        loop {
+            let rows = self.store.sessions(after.clone(), n_at_once).await?;
+            let is_last = rows.len() < n_at_once;
+            if let Some(last) = rows.last() {
+                after = last.session.id.to_string();
+            }
+            seen.extend(rows.into_iter().filter(|it| is_seen(&it.session.id)));
+            if is_last || seen.len() >= n_wanted {
+                seen.truncate(n_wanted);
+                return Ok(seen);
+            }
+        }
     }
 
     /// Changes a session between two frames.
@@ -366,8 +395,8 @@ fn restored(stored: StoredAlignment) -> RestoredAlignment {
     }
 }
 
-/// An id that nobody chose: 64 random bits.
-fn made_id() -> Result<SessionId, Status> {
+/// An id that nobody chose: 64 random bits after the prefix, as many of them as fit.
+pub(super) fn made_id(prefix: &str) -> Result<SessionId, Status> {
     let unavailable = || {
         refuse(
             tonic::Code::Internal,
@@ -376,5 +405,8 @@ fn made_id() -> Result<SessionId, Status> {
         )
     };
     let number = SysRng.try_next_u64().map_err(|_| unavailable())?;
-    SessionId::parse(&format!("s-{number:016x}")).map_err(|_| unavailable())
+    let prefix = if prefix.is_empty() { "s-" } else { prefix };
+    let mut id = format!("{prefix}{number:016x}");
+    id.truncate(MAX_MADE_ID_BYTES);
+    SessionId::parse(&id).map_err(|_| unavailable())
 }

@@ -30,6 +30,9 @@ pub enum SessionError {
         /// How much longer the lease lives if the owner stays silent.
         free_after: Duration,
     },
+    /// Another principal's publisher owns the session.
+    #[error("a publisher of another principal owns the session; an operator may take it over")]
+    OwnedByAnother,
     /// Another grant came first.
     #[error("epoch {epoch} is older than the session's epoch {current}")]
     Fenced {

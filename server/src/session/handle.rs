@@ -9,14 +9,14 @@ use super::{
     command::Command,
     error::SessionError,
     intake::Closed,
-    publication::{Grant, Granted, Publication},
+    publication::{Claim, Grant, Granted, Publication},
     settings::{SessionSettings, SessionUpdate, StreamShape},
     shared::Shared,
     status::{SessionStatus, StageLatency},
 };
 use crate::{
     hub::CurveHub,
-    name::{ActorId, PublisherId, SessionId},
+    name::{ActorId, SessionId},
 };
 
 /// A session, to be asked and told. Cheap to clone.
@@ -186,11 +186,12 @@ impl SessionHandle {
     ///
     /// # Errors
     ///
-    /// [`SessionError::Owned`] when another publisher holds the lease, or why the session takes no publisher.
-    pub fn check_claim(&self, publisher: &PublisherId, takeover: bool) -> Result<(), SessionError> {
+    /// [`SessionError::Owned`] when another publisher holds the lease, [`SessionError::OwnedByAnother`] when it may not be
+    /// pushed out, or why the session takes no publisher.
+    pub fn check_claim(&self, claim: &Claim) -> Result<(), SessionError> {
         let now_nanos = self.shared.clock.now_nanos();
         let intake = self.shared.intake();
-        intake.check_claim(publisher, takeover, now_nanos)
+        intake.check_claim(claim, now_nanos)
     }
 
     /// Gives the session to a publisher; an older publication is fenced.

@@ -12,7 +12,7 @@ use super::{
     frame::{IncomingFrame, Rejection},
     mailbox::Mailbox,
     order::{FrameOrder, Verdict},
-    publication::{Grant, Ingest, Offer, PublishEnd, Wait},
+    publication::{Claim, Grant, Ingest, Offer, PublishEnd, Wait},
     queue::{MAX_WAITING_COMMANDS, WaitingFrame, Work, WorkQueue},
     rate::{Admission, RateLimit, RateMeter},
     settings::StreamShape,
@@ -77,7 +77,7 @@ pub(super) struct IntakeLimits {
 
 #[derive(Debug)]
 struct Lease {
-    publisher: PublisherId,
+    owner: Owner,
     mailbox: Arc<Mailbox>,
     expires_nanos: i64,
     ingest: Ingest,
@@ -85,12 +85,28 @@ struct Lease {
     waits_for_space: bool,
 }
 
+/// A publisher, and whose it is.
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct Owner {
+    publisher: PublisherId,
+    principal: Arc<str>,
+}
+
+impl Owner {
+    fn of(claim: &Claim) -> Self {
+        Self {
+            publisher: claim.publisher.clone(),
+            principal: Arc::clone(&claim.principal),
+        }
+    }
+}
+
 /// A session's publisher, frame order and queue.
 #[derive(Debug)]
 pub(super) struct Intake {
     lease: Option<Lease>,
     newest_epoch: u64,
-    last_publisher: Option<PublisherId>,
+    last_owner: Option<Owner>,
     last_capture_nanos: Option<i64>,
     order: FrameOrder,
     queue: WorkQueue,
@@ -106,7 +122,7 @@ impl Intake {
         Self {
             lease: None,
             newest_epoch: 0,
-            last_publisher: None,
+            last_owner: None,
             last_capture_nanos: None,
             order: FrameOrder::new(nanos(limits.resend_span)),
             queue: WorkQueue::new(limits.waiting_frames, limits.waiting_bytes, limits.budget),
@@ -118,28 +134,27 @@ impl Intake {
         }
     }
 
-    /// Whether `publisher` may start.
-    pub(super) fn check_claim(
-        &self,
-        publisher: &PublisherId,
-        takeover: bool,
-        now_nanos: i64,
-    ) -> Result<(), SessionError> {
+    /// Whether a publisher may start.
+    pub(super) fn check_claim(&self, claim: &Claim, now_nanos: i64) -> Result<(), SessionError> {
         self.check_open()?;
-        match &self.lease {
-            Some(lease)
-                if !takeover
-                    && lease.publisher != *publisher
-                    && now_nanos < lease.expires_nanos =>
-            {
-                let left_nanos = lease.expires_nanos - now_nanos;
-                Err(SessionError::Owned {
-                    owner: lease.publisher.to_string(),
-                    free_after: Duration::from_nanos(left_nanos.unsigned_abs()),
-                })
-            }
-            _ => Ok(()),
+        let in_force = self
+            .lease
+            .as_ref()
+            .filter(|it| now_nanos < it.expires_nanos);
+        let Some(lease) = in_force.filter(|it| it.owner != Owner::of(claim)) else {
+            return Ok(());
+        };
+        if !claim.takeover {
+            let left_nanos = lease.expires_nanos - now_nanos;
+            return Err(SessionError::Owned {
+                owner: lease.owner.publisher.to_string(),
+                free_after: Duration::from_nanos(left_nanos.unsigned_abs()),
+            });
         }
+        if lease.owner.principal != claim.principal && !claim.outranks {
+            return Err(SessionError::OwnedByAnother);
+        }
+        Ok(())
     }
 
     /// Starts a lease; an older one is fenced. The queue learns of the source, so that frames are read as it declared.
@@ -149,7 +164,7 @@ impl Intake {
         shape: StreamShape,
         now_nanos: i64,
     ) -> Result<Arc<Mailbox>, SessionError> {
-        self.check_claim(&grant.publisher, grant.takeover, now_nanos)?;
+        self.check_claim(&grant.claim, now_nanos)?;
         if grant.epoch <= self.newest_epoch {
             return Err(SessionError::Fenced {
                 epoch: grant.epoch,
@@ -159,10 +174,11 @@ impl Intake {
         self.check_room_for_a_command()?;
         self.fence(grant.epoch);
         self.newest_epoch = grant.epoch;
-        self.note_publisher(&grant.publisher);
+        let owner = Owner::of(&grant.claim);
+        self.note_owner(&owner);
         let mailbox = Arc::new(Mailbox::new(grant.epoch));
         self.lease = Some(Lease {
-            publisher: grant.publisher.clone(),
+            owner,
             mailbox: Arc::clone(&mailbox),
             expires_nanos: now_nanos.saturating_add(nanos(self.publisher_timeout)),
             ingest: grant.ingest,
@@ -186,17 +202,13 @@ impl Intake {
         }
     }
 
-    fn note_publisher(&mut self, publisher: &PublisherId) {
-        if self
-            .last_publisher
-            .as_ref()
-            .is_some_and(|it| it != publisher)
-        {
+    fn note_owner(&mut self, owner: &Owner) {
+        if self.last_owner.as_ref().is_some_and(|it| it != owner) {
             self.order.publisher_changed();
             // Another publisher's clock says nothing about this one's.
             self.last_capture_nanos = None;
         }
-        self.last_publisher = Some(publisher.clone());
+        self.last_owner = Some(owner.clone());
     }
 
     /// Judges a frame and takes it when it is new and there is room.
@@ -443,7 +455,7 @@ impl Intake {
         status.frames_shed = counts.shed;
         status.frames_missing = counts.missing;
         status.markers_partial = counts.partial_markers;
-        status.publisher = self.lease.as_ref().map(|it| it.publisher.to_string());
+        status.publisher = self.lease.as_ref().map(|it| it.owner.publisher.to_string());
         if let Some(Closed::Failed { reason }) = &self.closed {
             status.failure = Some(reason.clone());
         }

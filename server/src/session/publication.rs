@@ -21,13 +21,24 @@ pub enum Ingest {
     Lossless,
 }
 
+/// Who wants to publish (CONTRACTS D-28).
+#[derive(Clone, Debug)]
+pub struct Claim {
+    /// What it calls itself; the same name of another principal is another publisher.
+    pub publisher: PublisherId,
+    /// Tells principals apart.
+    pub principal: Arc<str>,
+    /// Whether it wants to push another publisher out.
+    pub takeover: bool,
+    /// Whether it may push out one of another principal.
+    pub outranks: bool,
+}
+
 /// What a publisher asks for.
 #[derive(Clone, Debug)]
 pub struct Grant {
     /// Who asks.
-    pub publisher: PublisherId,
-    /// Whether it may push another publisher out.
-    pub takeover: bool,
+    pub claim: Claim,
     /// The grant's number, durable before it is used here.
     pub epoch: u64,
     /// Unit of the coordinates.

@@ -2,6 +2,7 @@
 
 mod convert;
 mod import;
+mod seen;
 
 use std::{pin::Pin, sync::Arc};
 
@@ -18,6 +19,12 @@ use crate::{
     clock::ServerClock,
     executor::Workers,
     name::ActorId,
+    service::{
+        access::{Action, Caller},
+        audit::Audit,
+        peer::Peer,
+    },
+    session::SessionRegistry,
     wire::{self, invalid::FieldError, page::Page},
 };
 
@@ -32,6 +39,7 @@ type Responses<T> = Pin<Box<dyn Stream<Item = Result<T, Status>> + Send>>;
 #[derive(Clone)]
 pub struct ActorsGrpc {
     store: Store,
+    registry: SessionRegistry,
     clock: ServerClock,
     workers: Workers,
     max_package_bytes: usize,
@@ -41,39 +49,61 @@ pub struct ActorsGrpc {
     /// One permit an export, held until its last chunk is sent or its stream dropped.
     exports: Arc<Semaphore>,
     max_exports: usize,
+    audit: Audit,
+}
+
+/// How much of packages there may be at once.
+#[derive(Clone, Copy, Debug)]
+pub struct ActorLimits {
+    /// Largest package, bytes.
+    pub package_bytes: usize,
+    /// Imports at once.
+    pub imports: usize,
+    /// Exports at once.
+    pub exports: usize,
+}
+
+/// The right to import one package, from its first message to its answer.
+pub struct ImportPlace {
+    permit: OwnedSemaphorePermit,
+    peer: Peer,
 }
 
 impl ActorsGrpc {
-    /// Imports run on `workers`, at most `max_imports` at once, each at most `max_package_bytes` long; packages leave
-    /// at most `max_exports` at once.
+    /// Imports run on `workers`; the sessions of `registry` say which actors a caller sees.
     pub fn new(
         store: Store,
+        registry: SessionRegistry,
         clock: ServerClock,
         workers: Workers,
-        max_package_bytes: usize,
-        max_imports: usize,
-        max_exports: usize,
+        limits: ActorLimits,
+        audit: Audit,
     ) -> Self {
         Self {
             store,
+            registry,
             clock,
             workers,
-            max_package_bytes,
-            imports: Arc::new(Semaphore::new(max_imports)),
-            max_imports,
-            exports: Arc::new(Semaphore::new(max_exports)),
-            max_exports,
+            max_package_bytes: limits.package_bytes,
+            imports: Arc::new(Semaphore::new(limits.imports)),
+            max_imports: limits.imports,
+            exports: Arc::new(Semaphore::new(limits.exports)),
+            max_exports: limits.exports,
+            audit,
         }
     }
 
     /// A place for one import, before any of it is read; every door asks here first.
     pub(in crate::service) fn admit_import(
         &self,
-        _extensions: &Extensions,
-    ) -> Result<OwnedSemaphorePermit, Status> {
-        Arc::clone(&self.imports)
+        extensions: &Extensions,
+    ) -> Result<ImportPlace, Status> {
+        let peer = Peer::of(extensions);
+        peer.caller.may(Action::MakeActors)?;
+        let permit = Arc::clone(&self.imports)
             .try_acquire_owned()
-            .map_err(|_| refusal::limit("IMPORTS", "limits.imports", self.max_imports))
+            .map_err(|_| refusal::limit("IMPORTS", "limits.imports", self.max_imports))?;
+        Ok(ImportPlace { permit, peer })
     }
 
     fn unix_now_nanos(&self) -> i64 {
@@ -104,8 +134,11 @@ impl ActorService for ActorsGrpc {
         &self,
         request: Request<v1::ExportActorRequest>,
     ) -> Result<Response<Self::ExportActorStream>, Status> {
+        let caller = Caller::of(request.extensions());
+        caller.may(Action::ReadActors)?;
         let request = request.into_inner();
         let id = id(&request.name)?;
+        self.check_seen(&caller, &id)?;
         let permit = Arc::clone(&self.exports)
             .try_acquire_owned()
             .map_err(|_| refusal::limit("EXPORTS", "limits.exports", self.max_exports))?;
@@ -121,14 +154,17 @@ impl ActorService for ActorsGrpc {
             let chunk = package.slice(start..end).to_vec();
             Ok(v1::ExportActorResponse { chunk })
         });
-        Ok(Response::new(chunks.boxed()))
+        Ok(Response::new(caller.while_valid(chunks)))
     }
 
     async fn get_actor(
         &self,
         request: Request<v1::GetActorRequest>,
     ) -> Result<Response<v1::GetActorResponse>, Status> {
+        let caller = Caller::of(request.extensions());
+        caller.may(Action::ReadActors)?;
         let id = id(&request.into_inner().name)?;
+        self.check_seen(&caller, &id)?;
         let newest = self.store.actor(&id).await?;
         let actor = Some(wire::actor::actor(&newest));
         Ok(Response::new(v1::GetActorResponse { actor }))
@@ -138,12 +174,11 @@ impl ActorService for ActorsGrpc {
         &self,
         request: Request<v1::ListActorsRequest>,
     ) -> Result<Response<v1::ListActorsResponse>, Status> {
+        let caller = Caller::of(request.extensions());
+        caller.may(Action::ReadActors)?;
         let request = request.into_inner();
         let page = Page::parse(request.page_size, &request.page_token)?;
-        let mut found = self
-            .store
-            .actors(page.after.clone(), page.n_to_read())
-            .await?;
+        let mut found = self.read_page(&caller, &page).await?;
         let next_page_token = page.cut(&mut found, |it| it.actor.to_string());
         Ok(Response::new(v1::ListActorsResponse {
             actors: found.iter().map(wire::actor::actor).collect(),
@@ -155,9 +190,14 @@ impl ActorService for ActorsGrpc {
         &self,
         request: Request<v1::DeleteActorRequest>,
     ) -> Result<Response<v1::DeleteActorResponse>, Status> {
+        let peer = Peer::of(request.extensions());
+        peer.caller.may(Action::DeleteActor)?;
         let request = request.into_inner();
         let id = id(&request.name)?;
-        self.store.delete_actor(&id, request.with_takes).await?;
+        let deleted = self.store.delete_actor(&id, request.with_takes).await;
+        let deleted = deleted.map_err(Status::from);
+        self.audit
+            .outcome("actor_delete", &peer, &id.resource(), deleted)?;
         tracing::info!(actor = %id, "actor erased");
         Ok(Response::new(v1::DeleteActorResponse {}))
     }
@@ -166,8 +206,9 @@ impl ActorService for ActorsGrpc {
 
     async fn improve_basis(
         &self,
-        _request: Request<v1::ImproveBasisRequest>,
+        request: Request<v1::ImproveBasisRequest>,
     ) -> Result<Response<Self::ImproveBasisStream>, Status> {
+        Caller::of(request.extensions()).may(Action::MakeActors)?;
         Err(not_built("ImproveBasis"))
     }
 
@@ -175,8 +216,9 @@ impl ActorService for ActorsGrpc {
 
     async fn train_regions(
         &self,
-        _request: Request<v1::TrainRegionsRequest>,
+        request: Request<v1::TrainRegionsRequest>,
     ) -> Result<Response<Self::TrainRegionsStream>, Status> {
+        Caller::of(request.extensions()).may(Action::MakeActors)?;
         Err(not_built("TrainRegions"))
     }
 }

@@ -14,9 +14,14 @@ use super::status::refuse;
 use crate::{
     catalogue::Store,
     clock::ServerClock,
-    service::{peer::Peer, sessions::in_process},
+    service::{
+        access::{Action, Caller},
+        audit::Audit,
+        peer::Peer,
+        sessions::in_process,
+    },
     session::{
-        Grant, Granted, IncomingFrame, Offer, Publication, PublishEnd, SessionRegistry, Wait,
+        Claim, Grant, Granted, IncomingFrame, Offer, Publication, PublishEnd, SessionRegistry, Wait,
     },
     wire::capture::{self as wire, MAX_FRAMES_PER_MESSAGE},
 };
@@ -36,15 +41,17 @@ pub struct CaptureGrpc {
     registry: SessionRegistry,
     store: Store,
     clock: ServerClock,
+    audit: Audit,
 }
 
 impl CaptureGrpc {
     /// Publishes into the sessions of `registry`; epochs are made durable in `store` before they are granted.
-    pub fn new(registry: SessionRegistry, store: Store, clock: ServerClock) -> Self {
+    pub fn new(registry: SessionRegistry, store: Store, clock: ServerClock, audit: Audit) -> Self {
         Self {
             registry,
             store,
             clock,
+            audit,
         }
     }
 
@@ -55,6 +62,7 @@ impl CaptureGrpc {
     where
         S: Stream<Item = Result<v1::PublishMarkersRequest, Status>> + Send + Unpin + 'static,
     {
+        let caller = peer.caller.clone();
         let publishing = Publishing {
             service: self.clone(),
             requests,
@@ -65,7 +73,14 @@ impl CaptureGrpc {
             let response = publishing.next().await?;
             Some((response, publishing))
         });
-        Box::pin(responses)
+        caller.while_valid(responses)
+    }
+
+    /// Whether the caller may publish somewhere; to be asked before anything of the stream is read.
+    pub(in crate::service) fn admit(caller: &Caller) -> Result<(), Status> {
+        caller
+            .may(Action::Publish)
+            .or_else(|refused| caller.may(Action::TakeOver).map_err(|_| refused))
     }
 
     async fn open(&self, sent: v1::PublishStart, peer: &Peer) -> Result<Publication, Status> {
@@ -73,13 +88,33 @@ impl CaptureGrpc {
             return Err(not_implemented());
         }
         let start = wire::start(sent)?;
+        let caller = &peer.caller;
+        let outranks = caller.may(Action::TakeOver).is_ok();
+        let action = if start.takeover && outranks {
+            Action::TakeOver
+        } else {
+            Action::Publish
+        };
+        caller.may_in(action, &start.session)?;
         let session = in_process(&self.registry, &self.store, &start.session).await?;
-        session.check_claim(&start.publisher, start.takeover)?;
-        let epoch = self.store.next_epoch(&start.session).await?;
-        let (publisher, takeover) = (start.publisher.clone(), start.takeover);
-        let publication = session.grant(Grant {
-            publisher: start.publisher,
+        let claim = Claim {
+            publisher: start.publisher.clone(),
+            principal: caller.key().into(),
             takeover: start.takeover,
+            outranks,
+        };
+        let claimed = session.check_claim(&claim).map_err(Status::from);
+        if start.takeover {
+            let object = start.session.resource();
+            self.audit
+                .outcome("session_takeover", peer, &object, claimed)?;
+        } else {
+            claimed?;
+        }
+        let epoch = self.store.next_epoch(&start.session).await?;
+        let (publisher, takeover) = (start.publisher, start.takeover);
+        let publication = session.grant(Grant {
+            claim,
             epoch,
             unit: start.unit,
             marker_names: start.marker_names,
@@ -104,6 +139,7 @@ impl CaptureService for CaptureGrpc {
         request: Request<Streaming<v1::PublishMarkersRequest>>,
     ) -> Result<Response<Responses>, Status> {
         let peer = Peer::of(request.extensions());
+        Self::admit(&peer.caller)?;
         let responses = self.publish(request.into_inner(), peer);
         Ok(Response::new(responses))
     }
@@ -112,8 +148,9 @@ impl CaptureService for CaptureGrpc {
 
     async fn publish_images(
         &self,
-        _request: Request<Streaming<v1::PublishImagesRequest>>,
+        request: Request<Streaming<v1::PublishImagesRequest>>,
     ) -> Result<Response<Responses>, Status> {
+        Self::admit(&Caller::of(request.extensions()))?;
         Err(not_implemented())
     }
 }
@@ -158,6 +195,7 @@ where
     }
 
     async fn open(&mut self) -> Result<v1::PublishResponse, Status> {
+        CaptureGrpc::admit(&self.peer.caller)?;
         let first = timeout(START_TIMEOUT, self.requests.next()).await;
         let first = first.map_err(|_elapsed| {
             let message = "no start within 10 s";

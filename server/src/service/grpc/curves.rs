@@ -15,7 +15,11 @@ use crate::{
     catalogue::Store,
     clock::ServerClock,
     hub::{Closing, Delivered, Subscription},
-    service::{peer::Peer, sessions::in_process},
+    service::{
+        access::{Action, Caller},
+        peer::Peer,
+        sessions::in_process,
+    },
     session::{SessionError, SessionHandle, SessionRegistry},
     wire::curve::{self as wire, SampleDetail},
 };
@@ -55,6 +59,7 @@ impl CurvesGrpc {
     where
         S: Stream<Item = Result<v1::SubscribeRequest, Status>> + Send + Unpin + 'static,
     {
+        let caller = peer.caller.clone();
         let following = Following {
             service: self.clone(),
             grants,
@@ -65,7 +70,7 @@ impl CurvesGrpc {
             let response = following.next().await?;
             Some((response, following))
         });
-        Box::pin(responses)
+        caller.while_valid(responses)
     }
 
     /// The subscription, and the header that comes first.
@@ -81,6 +86,7 @@ impl CurvesGrpc {
             peer.door.name(),
             can_return_credits,
         )?;
+        peer.caller.may_in(Action::Subscribe, &request.session)?;
         let session = in_process(&self.registry, &self.store, &request.session).await?;
         let subscription = session.hub().subscribe(request.spec)?;
         let header = self.header(&session);
@@ -114,6 +120,7 @@ impl CurveService for CurvesGrpc {
         request: Request<Streaming<v1::SubscribeRequest>>,
     ) -> Result<Response<Responses>, Status> {
         let peer = Peer::of(request.extensions());
+        peer.caller.may(Action::Subscribe)?;
         let responses = self.subscription(request.into_inner(), peer);
         Ok(Response::new(responses))
     }
@@ -125,6 +132,7 @@ impl CurveService for CurvesGrpc {
         request: Request<v1::SubscribeStart>,
     ) -> Result<Response<Responses>, Status> {
         let peer = Peer::of(request.extensions());
+        peer.caller.may(Action::Subscribe)?;
         let (flow, header) = self.open(request.get_ref(), &peer, false).await?;
         let phase = Phase::Opened(Box::new(flow), Box::new(header));
         let responses = self.responses(stream::pending(), phase, peer);
@@ -135,7 +143,10 @@ impl CurveService for CurvesGrpc {
         &self,
         request: Request<v1::ReadCurvesRequest>,
     ) -> Result<Response<v1::ReadCurvesResponse>, Status> {
+        let caller = Caller::of(request.extensions());
+        caller.may(Action::Subscribe)?;
         let asked = wire::read(request.get_ref())?;
+        caller.may_in(Action::Subscribe, &asked.session)?;
         let session = in_process(&self.registry, &self.store, &asked.session).await?;
         let page = session.hub().page(asked.run, asked.after, asked.limit)?;
         let header = self.header(&session);
@@ -198,6 +209,7 @@ where
     }
 
     async fn start(&mut self) -> Result<(Flow, v1::SubscribeResponse), Status> {
+        self.peer.caller.may(Action::Subscribe)?;
         let out_of_order =
             |message: &str| refuse(Code::FailedPrecondition, "PROTOCOL_ORDER", message);
         let first = timeout(START_TIMEOUT, self.grants.next()).await;

@@ -132,6 +132,9 @@ impl From<SessionError> for Status {
                 Refusal::new(Code::FailedPrecondition, "SESSION_OWNED", message)
                     .retry_after(free_after)
             }
+            SessionError::OwnedByAnother => {
+                Refusal::new(Code::PermissionDenied, "TAKEOVER", message)
+            }
             SessionError::Fenced { epoch, current } => {
                 Refusal::new(Code::Aborted, "PUBLISHER_FENCED", message)
                     .with("epoch", &epoch)

@@ -5,7 +5,12 @@ use tonic::{Request, Response, Status};
 
 use crate::{
     name::SessionId,
-    service::sessions::{Change, Sessions},
+    service::{
+        access::{Action, Caller},
+        audit::Audit,
+        peer::Peer,
+        sessions::{Change, Sessions, made_id},
+    },
     wire::{
         invalid::FieldError,
         page::Page,
@@ -15,7 +20,22 @@ use crate::{
 
 /// The service; cheap to clone.
 #[derive(Clone)]
-pub struct SessionsGrpc(pub Sessions);
+pub struct SessionsGrpc {
+    sessions: Sessions,
+    audit: Audit,
+}
+
+impl SessionsGrpc {
+    /// Serves these sessions.
+    pub fn new(sessions: Sessions, audit: Audit) -> Self {
+        Self { sessions, audit }
+    }
+
+    /// The sessions behind it, for what is no call.
+    pub fn sessions(&self) -> &Sessions {
+        &self.sessions
+    }
+}
 
 fn id(name: &str) -> Result<SessionId, Status> {
     Ok(SessionId::from_resource(name).map_err(FieldError::name("name"))?)
@@ -27,8 +47,22 @@ impl SessionService for SessionsGrpc {
         &self,
         request: Request<v1::CreateSessionRequest>,
     ) -> Result<Response<v1::CreateSessionResponse>, Status> {
-        let request = CreateSession::try_from(request.into_inner())?;
-        let session = Some(self.0.create(request).await?);
+        let peer = Peer::of(request.extensions());
+        peer.caller.may(Action::CreateSession)?;
+        let mut request = CreateSession::try_from(request.into_inner())?;
+        let prefix = peer.caller.may_create(request.id.as_ref())?;
+        let id = match request.id.take() {
+            Some(id) => id,
+            None => made_id(prefix)?,
+        };
+        peer.caller.count_creation()?;
+        let name = id.resource();
+        request.id = Some(id);
+        let created = self.sessions.create(request).await;
+        let session = Some(
+            self.audit
+                .outcome("session_create", &peer, &name, created)?,
+        );
         Ok(Response::new(v1::CreateSessionResponse { session }))
     }
 
@@ -36,8 +70,11 @@ impl SessionService for SessionsGrpc {
         &self,
         request: Request<v1::GetSessionRequest>,
     ) -> Result<Response<v1::GetSessionResponse>, Status> {
+        let caller = Caller::of(request.extensions());
+        caller.may(Action::ReadState)?;
         let id = id(&request.into_inner().name)?;
-        let session = Some(self.0.get(&id).await?);
+        caller.may_in(Action::ReadState, &id)?;
+        let session = Some(self.sessions.get(&id).await?);
         Ok(Response::new(v1::GetSessionResponse { session }))
     }
 
@@ -45,9 +82,12 @@ impl SessionService for SessionsGrpc {
         &self,
         request: Request<v1::ListSessionsRequest>,
     ) -> Result<Response<v1::ListSessionsResponse>, Status> {
+        let caller = Caller::of(request.extensions());
+        caller.may(Action::ReadState)?;
         let request = request.into_inner();
         let page = Page::parse(request.page_size, &request.page_token)?;
-        let (sessions, next_page_token) = self.0.list(&page).await?;
+        let is_seen = |id: &SessionId| caller.sees(id);
+        let (sessions, next_page_token) = self.sessions.list(&page, is_seen).await?;
         Ok(Response::new(v1::ListSessionsResponse {
             sessions,
             next_page_token,
@@ -58,15 +98,18 @@ impl SessionService for SessionsGrpc {
         &self,
         request: Request<v1::UpdateSessionRequest>,
     ) -> Result<Response<v1::UpdateSessionResponse>, Status> {
+        let caller = Caller::of(request.extensions());
+        caller.may(Action::ChangeSession)?;
         let request = request.into_inner();
         let id = id(&request.name)?;
+        caller.may_in(Action::ChangeSession, &id)?;
         let asked = request.settings.unwrap_or_default();
         let mask = request.update_mask.unwrap_or_default().paths;
         let change = Change {
             settings: Box::new(move |base| Ok(apply(&asked, &mask, base)?)),
             actor_revision: (request.actor_revision != 0).then_some(request.actor_revision),
         };
-        let session = Some(self.0.update(&id, change).await?);
+        let session = Some(self.sessions.update(&id, change).await?);
         Ok(Response::new(v1::UpdateSessionResponse { session }))
     }
 
@@ -74,8 +117,11 @@ impl SessionService for SessionsGrpc {
         &self,
         request: Request<v1::RecenterSessionRequest>,
     ) -> Result<Response<v1::RecenterSessionResponse>, Status> {
+        let caller = Caller::of(request.extensions());
+        caller.may(Action::ChangeSession)?;
         let id = id(&request.into_inner().name)?;
-        let session = Some(self.0.recenter(&id).await?);
+        caller.may_in(Action::ChangeSession, &id)?;
+        let session = Some(self.sessions.recenter(&id).await?);
         Ok(Response::new(v1::RecenterSessionResponse { session }))
     }
 
@@ -83,8 +129,13 @@ impl SessionService for SessionsGrpc {
         &self,
         request: Request<v1::EndSessionRequest>,
     ) -> Result<Response<v1::EndSessionResponse>, Status> {
+        let peer = Peer::of(request.extensions());
+        peer.caller.may(Action::EndSession)?;
         let id = id(&request.into_inner().name)?;
-        let session = Some(self.0.end(&id).await?);
+        peer.caller.may_in(Action::EndSession, &id)?;
+        let ended = self.sessions.end(&id).await;
+        let name = id.resource();
+        let session = Some(self.audit.outcome("session_end", &peer, &name, ended)?);
         Ok(Response::new(v1::EndSessionResponse { session }))
     }
 }

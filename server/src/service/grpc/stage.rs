@@ -17,7 +17,7 @@ use tokio::{
     time::{Instant, timeout},
 };
 use tokio_stream::wrappers::ReceiverStream;
-use tonic::{Code, Status};
+use tonic::{Code, Request, Status};
 
 use super::{capture::CaptureGrpc, curves::CurvesGrpc, status::reason_of};
 use crate::{
@@ -26,7 +26,7 @@ use crate::{
     executor::Workers,
     fs::MemFs,
     name::{ActorId, SessionId},
-    service::{peer::Peer, sessions::Sessions},
+    service::{access::Caller, audit::Audit, peer::Peer, sessions::Sessions},
     session::{
         RestoredAlignment, SessionEvent, SessionHandle, SessionLimits, SessionRegistry,
         SessionSettings, SessionSpec,
@@ -88,7 +88,7 @@ impl Stage {
             })
             .unwrap();
         Self {
-            capture: CaptureGrpc::new(registry.clone(), store.clone(), clock),
+            capture: CaptureGrpc::new(registry.clone(), store.clone(), clock, Audit::none()),
             curves: CurvesGrpc::new(registry.clone(), store.clone(), clock),
             sessions: Sessions::new(store.clone(), registry.clone(), clock, 4),
             store,
@@ -156,9 +156,7 @@ impl Stage {
         let (requests, received) = mpsc::channel(1_024);
         Publisher {
             requests: Some(requests),
-            responses: self
-                .capture
-                .publish(ReceiverStream::new(received), Peer::default()),
+            responses: self.capture.publish(ReceiverStream::new(received), peer()),
             started: None,
             rejected: Vec::new(),
             accepted_through: 0,
@@ -458,10 +456,18 @@ pub(super) fn in_order(response: &v1::SubscribeResponse) -> Vec<Seen> {
     seen
 }
 
+/// A call by whoever reaches the port.
+pub(super) fn asked<T>(message: T) -> Request<T> {
+    let mut request = Request::new(message);
+    request.extensions_mut().insert(Caller::anyone());
+    request
+}
+
 /// A renderer on this machine.
 fn peer() -> Peer {
     Peer {
         address: Some(([127, 0, 0, 1], 9).into()),
+        caller: Caller::anyone(),
         ..Peer::default()
     }
 }

@@ -115,6 +115,14 @@ fn only_post() -> Response {
     ([(header::ALLOW, "POST")], problem).into_response()
 }
 
+/// A refusal in the protocol that the request speaks, whatever it asked for.
+pub fn refuse_in_kind(request: &Request, status: Status) -> Response {
+    match grpc_door(request.headers()) {
+        Some(door) => grpc(status, door),
+        None => Problem::from(status).into_response(),
+    }
+}
+
 /// A refusal as the door's clients read it; gRPC-web takes the status from the headers too, under its own type.
 fn grpc(status: Status, door: Door) -> Response {
     let mut response = status.into_http::<Body>();

@@ -3,6 +3,7 @@
 use std::collections::BTreeMap;
 
 use axum::{
+    Extension,
     extract::State,
     http::{StatusCode, header},
     response::{IntoResponse, Response},
@@ -11,6 +12,7 @@ use axum::{
 use super::{Doors, problem::Problem};
 use crate::{
     hub::SessionState,
+    service::access::{Action, Caller},
     session::{SessionHandle, SessionStatus},
     telemetry::{Protocol, SessionFigures},
     wire::session::state_name,
@@ -70,12 +72,16 @@ pub(super) async fn readyz(State(doors): State<Doors>) -> Response {
     "ready\n".into_response()
 }
 
-pub(super) async fn metrics(State(doors): State<Doors>) -> impl IntoResponse {
+pub(super) async fn metrics(
+    State(doors): State<Doors>,
+    Extension(caller): Extension<Caller>,
+) -> Result<impl IntoResponse, Problem> {
+    caller.may(Action::ReadMetrics)?;
     doors.metrics.request(Protocol::Http);
     let all: Vec<SessionStatus> = doors
         .services
         .sessions
-        .0
+        .sessions()
         .handles()
         .iter()
         .map(SessionHandle::status)
@@ -84,7 +90,7 @@ pub(super) async fn metrics(State(doors): State<Doors>) -> impl IntoResponse {
     doors.metrics.set_ready(!doors.phases.is_draining());
     doors.metrics.set_sessions(&figures(&all));
     let kind = "application/openmetrics-text; version=1.0.0; charset=utf-8";
-    ([(header::CONTENT_TYPE, kind)], doors.metrics.to_text())
+    Ok(([(header::CONTENT_TYPE, kind)], doors.metrics.to_text()))
 }
 
 fn figures(all: &[SessionStatus]) -> SessionFigures {

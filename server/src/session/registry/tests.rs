@@ -8,7 +8,7 @@ use super::*;
 use crate::{
     hub::SessionState,
     name::{ActorId, PublisherId},
-    session::{Grant, Ingest, PublishEnd, SessionSettings, SessionUpdate},
+    session::{Claim, Grant, Ingest, PublishEnd, SessionSettings, SessionUpdate},
 };
 
 fn registry(sessions: usize) -> (SessionRegistry, mpsc::Receiver<SessionEvent>) {
@@ -37,8 +37,12 @@ fn spec(id: &str, run: u64) -> SessionSpec {
 
 fn grant(epoch: u64) -> Grant {
     Grant {
-        publisher: PublisherId::parse("stage").unwrap(),
-        takeover: false,
+        claim: Claim {
+            publisher: PublisherId::parse("stage").unwrap(),
+            principal: "anyone".into(),
+            takeover: false,
+            outranks: true,
+        },
         epoch,
         unit: LengthUnit::Millimeter,
         marker_names: Vec::new(),

@@ -11,11 +11,13 @@ use frontalis_analysis::{
     space::LengthUnit,
 };
 use frontalis_proto::v1;
-use futures::{Stream, StreamExt as _, TryStreamExt as _, stream};
-use tokio::sync::OwnedSemaphorePermit;
+use futures::{
+    Stream, StreamExt as _, TryStreamExt as _,
+    stream::{self, BoxStream},
+};
 use tonic::{Code, Status, Streaming};
 
-use super::{ActorsGrpc, MAX_CHUNK_BYTES};
+use super::{ActorsGrpc, ImportPlace, MAX_CHUNK_BYTES};
 use crate::{
     catalogue::NewRevision,
     service::grpc::{
@@ -57,13 +59,13 @@ pub struct Import {
     service: ActorsGrpc,
     start: ImportStart,
     package: Vec<u8>,
-    _place: OwnedSemaphorePermit,
+    place: ImportPlace,
 }
 
 impl ActorsGrpc {
     pub(super) async fn import(
         &self,
-        place: OwnedSemaphorePermit,
+        place: ImportPlace,
         mut stream: Streaming<v1::ImportActorRequest>,
     ) -> Result<v1::ImportActorResponse, Status> {
         let first = in_time(stream.message()).await?;
@@ -83,14 +85,14 @@ impl ActorsGrpc {
     /// Checks what an import says of itself.
     pub(in crate::service) fn begin_import(
         &self,
-        place: OwnedSemaphorePermit,
+        place: ImportPlace,
         start: v1::ImportActorStart,
     ) -> Result<Import, Status> {
         Ok(Import {
             service: self.clone(),
             start: ImportStart::try_from(start)?,
             package: Vec::new(),
-            _place: place,
+            place,
         })
     }
 }
@@ -106,13 +108,25 @@ impl Import {
 
     /// Takes the package's chunks and stores what they make. `progress` is told after every chunk and at every stage.
     pub(in crate::service) async fn run<S>(
-        mut self,
-        mut chunks: S,
+        self,
+        chunks: S,
         progress: impl Fn(Progress),
     ) -> Result<v1::ImportActorResponse, Status>
     where
-        S: Stream<Item = Result<Bytes, Status>> + Unpin,
+        S: Stream<Item = Result<Bytes, Status>> + Send + 'static,
     {
+        let audit = self.service.audit.clone();
+        let (peer, object) = (self.place.peer.clone(), self.start.actor.resource());
+        let chunks = peer.caller.while_valid(chunks);
+        let imported = self.take(chunks, progress).await;
+        audit.outcome("actor_import", &peer, &object, imported)
+    }
+
+    async fn take(
+        mut self,
+        mut chunks: BoxStream<'static, Result<Bytes, Status>>,
+        progress: impl Fn(Progress),
+    ) -> Result<v1::ImportActorResponse, Status> {
         while let Some(chunk) = in_time(chunks.try_next()).await? {
             self.append(&chunk)?;
             progress(self.progress(ImportStage::Receiving));
@@ -156,7 +170,7 @@ impl Import {
             service,
             start,
             package,
-            _place: held,
+            place: held,
         } = self;
         let rank = if start.regularize {
             RankPolicy::Regularize
@@ -182,7 +196,7 @@ impl Import {
         service
             .store
             .keep_loaded(&added.actor, added.revision, &loaded);
-        drop(held);
+        drop(held.permit);
         tracing::info!(actor = %added.actor, revision = added.revision, "actor imported");
         Ok(v1::ImportActorResponse {
             actor: Some(wire::actor::actor(&added)),

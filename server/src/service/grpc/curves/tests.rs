@@ -6,7 +6,7 @@ use frontalis_proto::v1::SessionState;
 use tokio::time::{Instant, sleep};
 
 use super::*;
-use crate::service::grpc::stage::{Stage, assert_refused, every_frame, latest, start};
+use crate::service::grpc::stage::{Stage, asked, assert_refused, every_frame, latest, start};
 
 const FRAME: Duration = Duration::from_micros(16_667);
 
@@ -204,7 +204,7 @@ async fn follow_needs_no_requests_and_keeps_to_thirty_hertz() {
         .await
         .publish(stage.frames(1..=10))
         .await;
-    let request = Request::new(v1::SubscribeStart {
+    let request = asked(v1::SubscribeStart {
         credits: 2,
         ..latest(0)
     });

@@ -4,7 +4,7 @@ use frontalis_proto::v1::curve_service_server::CurveService as _;
 use futures::FutureExt as _;
 use tonic::Code;
 
-use super::super::stage::{SESSION, Stage, assert_refused, every_frame, start};
+use super::super::stage::{SESSION, Stage, asked, assert_refused, every_frame, start};
 use super::*;
 
 fn wider() -> Change {
@@ -56,6 +56,6 @@ async fn a_session_of_which_only_the_catalogue_knows_ended_for_everyone() {
     ended(&stage.sessions.handle(&id).await.unwrap_err());
     ended(&stage.start(start("stage")).await.end().await);
     ended(&stage.subscribe(every_frame()).await.end().await.1);
-    let follow = stage.curves.follow(Request::new(every_frame())).await;
+    let follow = stage.curves.follow(asked(every_frame())).await;
     ended(&follow.err().unwrap());
 }

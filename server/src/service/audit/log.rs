@@ -1,0 +1,167 @@
+//! The file of the audit log: opened once, only ever appended to, each batch flushed to the disk.
+
+use std::{
+    fs::{File, OpenOptions},
+    io::{self, Read as _, Seek as _, SeekFrom, Write as _},
+    os::unix::fs::OpenOptionsExt as _,
+    path::Path,
+};
+
+use frontalis_access::UnixTime;
+use tokio::sync::mpsc;
+use tokio_util::sync::CancellationToken;
+
+use super::{
+    Entry,
+    chain::{Line, TORN, Tail, read},
+};
+use crate::clock::wall_now;
+
+/// Name of the log in the data directory.
+pub const FILE_NAME: &str = "audit.log";
+
+/// The end of a log that is read to go on after it, bytes; many times the longest line.
+const MAX_TAIL_BYTES: u64 = 64 * 1024;
+/// Entries that are written with one flush.
+const BATCH: usize = 64;
+
+/// Writes entries; there is one in a server.
+#[derive(Debug)]
+pub struct AuditLog {
+    /// None: the server keeps everything in memory, and entries go to the log of the process alone.
+    file: Option<File>,
+    tail: Tail,
+    /// The file ends in a line that was not written whole.
+    is_torn: bool,
+}
+
+impl AuditLog {
+    /// Keeps nothing.
+    pub fn in_memory() -> Self {
+        Self {
+            file: None,
+            tail: Tail::default(),
+            is_torn: false,
+        }
+    }
+
+    /// Goes on after what `directory` has.
+    ///
+    /// # Errors
+    ///
+    /// As the system says.
+    pub fn open(directory: &Path) -> io::Result<Self> {
+        let mut file = OpenOptions::new()
+            .read(true)
+            .append(true)
+            .create(true)
+            .mode(0o600)
+            .open(directory.join(FILE_NAME))?;
+        let end = read_end(&mut file)?;
+        let (tail, is_torn) = joint(&end, &Tail::default());
+        tracing::info!(
+            sequence = tail.sequence,
+            hash = tail.hash,
+            "the audit log goes on"
+        );
+        Ok(Self {
+            file: Some(file),
+            tail,
+            is_torn,
+        })
+    }
+
+    /// Runs until `drained`, then writes what is left in the channel.
+    pub async fn run(mut self, mut entries: mpsc::Receiver<Entry>, drained: CancellationToken) {
+        let mut batch = Vec::with_capacity(BATCH);
+        loop {
+            tokio::select! {
+                biased;
+                n = entries.recv_many(&mut batch, BATCH) => if n == 0 { return },
+                () = drained.cancelled() => break,
+            }
+            self = self.write(std::mem::take(&mut batch)).await;
+        }
+        while let Ok(entry) = entries.try_recv() {
+            self = self.write(vec![entry]).await;
+        }
+    }
+
+    async fn write(mut self, batch: Vec<Entry>) -> Self {
+        let write = move || {
+            if let Err(error) = self.append(batch) {
+                tracing::error!(%error, "the audit log cannot be written");
+                self.look_again();
+            }
+            self
+        };
+        match tokio::task::spawn_blocking(write).await {
+            Ok(log) => log,
+            Err(error) => {
+                tracing::error!(%error, "the audit log was lost");
+                Self::in_memory()
+            }
+        }
+    }
+
+    /// After a failure: what came of the batch may be all, nothing, or half a line.
+    fn look_again(&mut self) {
+        let end = self.file.as_mut().map(read_end);
+        match end {
+            Some(Ok(end)) => (self.tail, self.is_torn) = joint(&end, &self.tail),
+            _ => self.is_torn = true,
+        }
+    }
+
+    fn append(&mut self, batch: Vec<Entry>) -> io::Result<()> {
+        let Some(file) = &mut self.file else {
+            return Ok(());
+        };
+        let time = UnixTime::from(wall_now()).to_string();
+        let mut tail = self.tail.clone();
+        let mut text = String::new();
+        if self.is_torn {
+            text.push('\n');
+            text.push_str(&tail.append(line(Entry::of_server(TORN, "go on"), &time)));
+        }
+        for entry in batch {
+            text.push_str(&tail.append(line(entry, &time)));
+        }
+        file.write_all(text.as_bytes())?;
+        file.sync_data()?;
+        self.tail = tail;
+        self.is_torn = false;
+        Ok(())
+    }
+}
+
+/// The newest line that is whole, and whether something that is none comes after it.
+fn joint(end: &str, before: &Tail) -> (Tail, bool) {
+    let newest = end.lines().rev().find_map(read);
+    let is_whole = end.ends_with('\n') && end.lines().next_back().and_then(read).is_some();
+    let tail = newest.map_or_else(|| before.clone(), |it| it.0);
+    (tail, !is_whole && !end.is_empty())
+}
+
+fn read_end(file: &mut File) -> io::Result<String> {
+    let length = file.metadata()?.len();
+    let start = length.saturating_sub(MAX_TAIL_BYTES);
+    file.seek(SeekFrom::Start(start))?;
+    let mut bytes = Vec::new();
+    file.take(MAX_TAIL_BYTES).read_to_end(&mut bytes)?;
+    Ok(String::from_utf8_lossy(&bytes).into_owned())
+}
+
+fn line(entry: Entry, time: &str) -> Line {
+    Line {
+        sequence: 0,
+        time: time.to_owned(),
+        event: entry.event.to_owned(),
+        who: entry.who,
+        from: entry.from,
+        object: entry.object,
+        result: entry.result,
+        left_out: entry.n_left_out,
+        previous: String::new(),
+    }
+}
