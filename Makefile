@@ -29,7 +29,7 @@ clean-demo: ## Forget what the demo stored
 	rm -rf ./demo-data
 
 .PHONY: test
-test: python runner ## Every test there is; ends with the runner's own count
+test: clients runner ## Every test there is; ends with the runner's own count
 	cargo build --workspace --bins --quiet
 	cargo test --workspace --doc --quiet
 	@if ! cargo nextest --version >/dev/null 2>&1; then \
@@ -47,15 +47,27 @@ runner:
 	  || cargo install --locked --quiet cargo-nextest --version $(NEXTEST_VERSION) \
 	  || echo "cargo-nextest could not be installed: cargo test runs the tests, one count a binary"
 
-# The Python client's environment; its tests are left out by name when it cannot be made.
+# What the clients of tests/clients need; their tests are left out by name when it cannot be had.
+.PHONY: clients
+clients: python node
+
 .PHONY: python
 python:
 	@$(MAKE) --no-print-directory .venv/ready \
-	  || echo "left out: python_client (all tests): python3 with venv and pip is needed to make .venv"
+	  || echo "left out: clients::python_over_grpc: python3 with venv and pip is needed to make .venv"
 
-.venv/ready: tests/python/requirements.txt
+.venv/ready: tests/clients/python/requirements.txt
 	@python3 -m venv .venv
-	@.venv/bin/pip install --quiet --disable-pip-version-check --requirement tests/python/requirements.txt
+	@.venv/bin/pip install --quiet --disable-pip-version-check --requirement $<
+	@touch $@
+
+.PHONY: node
+node:
+	@$(MAKE) --no-print-directory tests/clients/typescript/node_modules/ready \
+	  || echo "left out: clients::typescript: Node 20 with npm is needed to make node_modules"
+
+tests/clients/typescript/node_modules/ready: tests/clients/typescript/package-lock.json
+	@node --version | grep -qE '^v(2[0-9]|[3-9][0-9])' && cd $(<D) && npm ci --silent --no-audit --no-fund
 	@touch $@
 
 .PHONY: check

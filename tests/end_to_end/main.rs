@@ -2,12 +2,12 @@
 #![expect(clippy::unwrap_used, reason = "a failing test is its own report")]
 
 mod bad_input;
+mod clients;
 mod curves_http;
 mod demo;
 mod drain;
 mod late_renderer;
 mod layering;
 mod load;
-mod python_client;
 mod real_takes;
 mod restart;

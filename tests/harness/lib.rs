@@ -16,6 +16,7 @@ mod package;
 mod performance;
 mod problem;
 mod programs;
+mod protection;
 mod publisher;
 mod raw_grpc;
 mod real_time;
@@ -32,6 +33,7 @@ pub use package::{PackageFiles, glb, reference_package, toy_files, toy_glb, toy_
 pub use performance::TestPerformance;
 pub use problem::{Problem, assert_refused};
 pub use programs::program;
+pub use protection::Protection;
 pub use publisher::{PublishReport, Publisher};
 pub use raw_grpc::{RawAnswer, RawCall, RawConnection, encoded, framed, prefixed};
 pub use server::TestServer;
