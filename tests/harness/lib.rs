@@ -11,6 +11,7 @@
 mod control_session;
 mod eventually;
 mod http;
+mod keys;
 mod load;
 mod package;
 mod performance;
@@ -28,6 +29,7 @@ mod subscriber;
 
 pub use control_session::{ControlReport, ControlSession};
 pub use http::{HttpAnswer, http_get, http_send};
+pub use keys::{Bearer, Keys, now};
 pub use load::{LoadProfile, LoadReport};
 pub use package::{PackageFiles, glb, reference_package, toy_files, toy_glb, toy_json, zip};
 pub use performance::TestPerformance;
@@ -36,7 +38,7 @@ pub use programs::program;
 pub use protection::Protection;
 pub use publisher::{PublishReport, Publisher};
 pub use raw_grpc::{RawAnswer, RawCall, RawConnection, encoded, framed, prefixed};
-pub use server::TestServer;
+pub use server::{TestChannel, TestServer};
 pub use server_program::ServerProgram;
 pub use shared_data::data_dir;
 pub use stall::{StallProfile, StallReport};

@@ -13,19 +13,27 @@ use tokio::net::TcpListener;
 use tokio_util::sync::CancellationToken;
 use tonic::{
     Status,
+    service::interceptor::InterceptedService,
     transport::{Channel, Endpoint},
 };
 
-use crate::server_program::ServerProgram;
+use crate::{
+    keys::{Bearer, Keys},
+    server_program::ServerProgram,
+};
 
 /// Size of an import's chunks.
 const CHUNK_BYTES: usize = 256 * 1024;
+
+/// A connection that shows the token of the harness, where the server asks for one.
+pub type TestChannel = InterceptedService<Channel, Bearer>;
 
 /// A server that lives as long as the test wants it to.
 pub struct TestServer {
     config: Config,
     folder: TempDir,
     running: Running,
+    keys: Option<Keys>,
 }
 
 /// In this process, or a program of its own.
@@ -57,6 +65,62 @@ impl TestServer {
             config,
             folder,
             running,
+            keys: None,
+        }
+    }
+
+    /// Starts one that asks for tokens; the harness shows its own.
+    pub async fn start_guarded(change: impl FnOnce(&mut Config)) -> Self {
+        let mut keys = None;
+        let mut server = Self::start_with(|config| {
+            let path = std::path::Path::new(&config.data_dir).join("tokens.toml");
+            config.token_file = path.display().to_string();
+            keys = Some(Keys::write(path));
+            change(config);
+        })
+        .await;
+        server.keys = keys;
+        server
+    }
+
+    /// The tokens of a server that asks for them.
+    ///
+    /// # Panics
+    ///
+    /// When it does not.
+    pub fn keys(&mut self) -> &mut Keys {
+        self.keys.as_mut().expect("a guarded server")
+    }
+
+    /// An operator's token, of a server that asks for tokens.
+    ///
+    /// # Panics
+    ///
+    /// When it does not.
+    pub fn operator_token(&self) -> &str {
+        self.keys
+            .as_ref()
+            .expect("a guarded server")
+            .operator()
+            .reveal()
+    }
+
+    /// Makes the server look at its files now.
+    pub fn reload(&self) {
+        if let Running::Inside { server, .. } = &self.running {
+            server.reload();
+        }
+    }
+
+    /// The figures of a server in this process.
+    ///
+    /// # Panics
+    ///
+    /// When it is a program of its own.
+    pub fn metrics_text(&self) -> String {
+        match &self.running {
+            Running::Inside { server, .. } => server.metrics().to_text(),
+            Running::Program(_) => panic!("ask the program over HTTP"),
         }
     }
 
@@ -76,6 +140,7 @@ impl TestServer {
             config,
             folder,
             running: Running::Program(Box::new(started.await.unwrap())),
+            keys: None,
         }
     }
 
@@ -107,8 +172,9 @@ impl TestServer {
     }
 
     /// Drains the server and starts another on the same folder and the same port.
-    pub async fn restart(self) -> Self {
+    pub async fn restart(mut self) -> Self {
         let (address, mut config) = (self.address(), self.config.clone());
+        let keys = self.keys.take();
         let folder = self.stop().await;
         config.listen = address;
         let running = spawn(&config).await;
@@ -116,6 +182,7 @@ impl TestServer {
             config,
             folder,
             running,
+            keys,
         }
     }
 
@@ -141,7 +208,18 @@ impl TestServer {
     }
 
     /// A connection of its own.
-    pub async fn channel(&self) -> Channel {
+    pub async fn channel(&self) -> TestChannel {
+        let bearer = self.keys.as_ref().map(Keys::bearer).unwrap_or_default();
+        InterceptedService::new(self.bare_channel().await, bearer)
+    }
+
+    /// A connection of its own that shows another token.
+    pub async fn channel_as(&self, token: &frontalis_access::Token) -> TestChannel {
+        InterceptedService::new(self.bare_channel().await, Bearer::of(token))
+    }
+
+    /// A connection of its own that shows no token.
+    pub async fn bare_channel(&self) -> Channel {
         Endpoint::from_shared(self.url())
             .unwrap()
             .tcp_nodelay(true)
@@ -151,12 +229,12 @@ impl TestServer {
     }
 
     /// A client of the actors.
-    pub async fn actors(&self) -> ActorServiceClient<Channel> {
+    pub async fn actors(&self) -> ActorServiceClient<TestChannel> {
         ActorServiceClient::new(self.channel().await)
     }
 
     /// A client of the sessions.
-    pub async fn sessions(&self) -> SessionServiceClient<Channel> {
+    pub async fn sessions(&self) -> SessionServiceClient<TestChannel> {
         SessionServiceClient::new(self.channel().await)
     }
 

@@ -150,7 +150,7 @@ impl CaptureService for CaptureGrpc {
         &self,
         request: Request<Streaming<v1::PublishImagesRequest>>,
     ) -> Result<Response<Responses>, Status> {
-        Self::admit(&Caller::of(request.extensions()))?;
+        Caller::of(request.extensions()).may(Action::Publish)?;
         Err(not_implemented())
     }
 }

@@ -39,8 +39,10 @@ use crate::{
     config::SMALL_MESSAGE_BYTES,
     name::SessionId,
     service::{
+        access::{Action, Caller},
         calls::Place,
         door::Services,
+        grpc::capture::CaptureGrpc,
         listener::OpenConnection,
         peer::{Door, Peer},
     },
@@ -91,6 +93,12 @@ pub(super) async fn open(
             "offer a subprotocol: frontalis.v1.subscribe or .publish, with +json or +proto";
         Problem::new(StatusCode::BAD_REQUEST, "SUBPROTOCOL", detail)
     })?;
+    // The role before the upgrade, as an answer that every client can read; the scope is checked with the start.
+    let caller = Caller::of(request.extensions());
+    match spoken.direction {
+        Direction::Subscribe => caller.may(Action::Subscribe)?,
+        Direction::Publish => CaptureGrpc::admit(&caller)?,
+    }
     let name = HeaderValue::from_static(spoken.name());
     response
         .headers_mut()
