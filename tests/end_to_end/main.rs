@@ -7,6 +7,7 @@ mod clients;
 mod curves_http;
 mod demo;
 mod drain;
+mod every_door;
 mod late_renderer;
 mod layering;
 mod load;

@@ -9,6 +9,7 @@
 )]
 
 mod control_session;
+mod doors;
 mod eventually;
 mod http;
 mod keys;
@@ -28,6 +29,7 @@ mod stall;
 mod subscriber;
 
 pub use control_session::{ControlReport, ControlSession};
+pub use doors::{Closed, Event, EventStream, GrpcWeb, LinePublisher, Received, WebSocket};
 pub use http::{HttpAnswer, http_get, http_send};
 pub use keys::{Bearer, Keys, now};
 pub use load::{LoadProfile, LoadReport};

@@ -115,6 +115,15 @@ impl Subscriber {
         Ok(self.heard.pop_front())
     }
 
+    /// The next answer as it came; `None` when the stream closed in peace.
+    ///
+    /// # Errors
+    ///
+    /// When the server broke the stream off.
+    pub async fn answer(&mut self) -> Result<Option<SubscribeResponse>, Status> {
+        self.incoming.message().await
+    }
+
     fn take(&mut self, answer: SubscribeResponse) {
         self.skipped_samples = answer.skipped_samples;
         let mut gaps = answer.gaps.into_iter().peekable();

@@ -8,6 +8,7 @@ mod admission;
 mod connection;
 mod frames;
 mod inbound;
+mod lingering;
 mod liveness;
 mod open_connection;
 pub mod tls;

@@ -22,6 +22,7 @@ use super::{
     admission::Permit,
     frames::ControlFrame,
     inbound::Inbound,
+    lingering::Lingering,
     liveness::Liveness,
     tls::{Handshake, Tls},
 };
@@ -131,7 +132,7 @@ impl Connections {
         S: AsyncRead + AsyncWrite + Unpin + Send + 'static,
     {
         let _open = about.open.clone();
-        let (inbound, exceeded) = Inbound::new(stream, self.header_deadline);
+        let (inbound, exceeded) = Inbound::new(Lingering::new(stream), self.header_deadline);
         let peer = about.peer;
         let service = service(self.router.clone(), about);
         let connection = self
