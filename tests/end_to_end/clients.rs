@@ -53,24 +53,10 @@ async fn python_over_http_needs_the_standard_library_only() {
 
 #[tokio::test(flavor = "multi_thread", worker_threads = 2)]
 async fn typescript_over_grpc_and_grpc_web_shows_with_credits_and_resumes() {
-    let (Some(node), Some(modules)) = (on_path("node"), node_modules()) else {
-        return;
-    };
-    let folder = clients().join("typescript");
+    let Some(node) = Node::find() else { return };
     // Made anew from the .proto files, then type-checked: a message that changed is found here.
-    for (program, arguments) in [("buf", &["generate", "../../../proto"][..]), ("tsc", &[])] {
-        let mut command = Command::new(modules.join(".bin").join(program));
-        run(command.args(arguments).current_dir(&folder)).await;
-    }
-    let mut command = vec![node.into(), "--import".into()];
-    command.push(
-        format!(
-            "file://{}",
-            modules.join("tsx/dist/esm/index.mjs").display()
-        )
-        .into(),
-    );
-    command.push(folder.join("client.ts").into());
+    node.run("buf", &["generate", "../../../proto"]).await;
+    node.run("tsc", &[]).await;
     let promises = [
         "server over grpc:",
         "server over grpc-web:",
@@ -83,7 +69,14 @@ async fn typescript_over_grpc_and_grpc_web_shows_with_credits_and_resumes() {
         "refusal over grpc:",
         "refusal over grpc-web:",
     ];
-    run_against_both(&command, &promises).await;
+    run_against_both(&node.client("grpc_client.ts"), &promises).await;
+}
+
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn typescript_over_websockets_does_with_what_a_browser_has() {
+    let Some(node) = Node::find() else { return };
+    let promises = ["import:", "publish:", "latest:", "resume:", "refusal:"];
+    run_against_both(&node.client("web_client.ts"), &promises).await;
 }
 
 #[tokio::test(flavor = "multi_thread", worker_threads = 2)]
@@ -111,7 +104,7 @@ async fn run_against_both(client: &[OsString], promises: &[&str]) {
     server.stop().await;
 
     let protection = Protection::new();
-    let token = protection.token(Role::Publisher, "python*,typescript,curl");
+    let token = protection.token(Role::Publisher, "python*,typescript,web,curl");
     let operator = protection.token(Role::Operator, "*");
     let server = TestServer::start_with(|it| protection.apply(it)).await;
     let url = format!("https://{}", server.address());
@@ -139,6 +132,10 @@ async fn run_client(
     command.arg("--package").arg(&take.package);
     command.arg("--frames").arg(&take.frames);
     command.args(more);
+    // As a browser, Node has its authorities from outside.
+    if let Some(at) = more.iter().position(|it| it == "--ca-cert") {
+        command.env("NODE_EXTRA_CA_CERTS", &more[at + 1]);
+    }
     let said = run(&mut command).await;
     println!("{said}");
     for promise in promises {
@@ -215,14 +212,42 @@ fn python() -> Option<PathBuf> {
     None
 }
 
-/// What `make node` installs, when it is complete.
-fn node_modules() -> Option<PathBuf> {
-    let modules = clients().join("typescript/node_modules");
-    if modules.join(".bin/buf").exists() && modules.join("tsx").is_dir() {
-        return Some(modules);
+/// Node with what `make node` installs.
+struct Node {
+    program: PathBuf,
+    folder: PathBuf,
+}
+
+impl Node {
+    fn find() -> Option<Self> {
+        let program = on_path("node")?;
+        let folder = clients().join("typescript");
+        if !folder.join("node_modules/ready").is_file() {
+            println!("left out: clients::typescript: no node_modules; `make node` makes them");
+            return None;
+        }
+        Some(Self { program, folder })
     }
-    println!("left out: clients::typescript: no node_modules; `make node` makes them");
-    None
+
+    /// Runs one of the installed programs in the folder of the clients.
+    async fn run(&self, program: &str, arguments: &[&str]) {
+        let program = self.folder.join("node_modules/.bin").join(program);
+        run(Command::new(program)
+            .args(arguments)
+            .current_dir(&self.folder))
+        .await;
+    }
+
+    /// How a client is started: Node 20 reads TypeScript through a loader.
+    fn client(&self, script: &str) -> Vec<OsString> {
+        let loader = self.folder.join("node_modules/tsx/dist/esm/index.mjs");
+        vec![
+            self.program.clone().into(),
+            "--import".into(),
+            format!("file://{}", loader.display()).into(),
+            self.folder.join(script).into(),
+        ]
+    }
 }
 
 fn on_path(program: &str) -> Option<PathBuf> {
