@@ -12,6 +12,7 @@ mod packages_glb;
 mod positions;
 mod protocol_order;
 mod protocols;
+mod websocket;
 
 use frontalis_server::config::Config;
 use harness::{ControlSession, Publisher, Subscriber, TestPerformance, TestServer, every_frame};

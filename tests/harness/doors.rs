@@ -3,11 +3,13 @@
 mod events;
 mod grpc_web;
 mod lines;
+mod socket_frames;
 mod web_socket;
 
 pub use events::{Event, EventStream};
 pub use grpc_web::GrpcWeb;
 pub use lines::LinePublisher;
+pub use socket_frames::{SocketFrame, SocketFrames};
 pub use web_socket::{Closed, WebSocket};
 
 use frontalis_proto::v1::{CurveEnd, CurveHeader, CurveSample, Gap, SubscribeResponse};

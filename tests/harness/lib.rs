@@ -29,7 +29,10 @@ mod stall;
 mod subscriber;
 
 pub use control_session::{ControlReport, ControlSession};
-pub use doors::{Closed, Event, EventStream, GrpcWeb, LinePublisher, Received, WebSocket};
+pub use doors::{
+    Closed, Event, EventStream, GrpcWeb, LinePublisher, Received, SocketFrame, SocketFrames,
+    WebSocket,
+};
 pub use http::{HttpAnswer, http_get, http_send};
 pub use keys::{Bearer, Keys, now};
 pub use load::{LoadProfile, LoadReport};
