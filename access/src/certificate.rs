@@ -73,3 +73,60 @@ fn read(der: &[u8]) -> Option<Subject> {
         expire_time: UnixTime::from_secs(certificate.validity().not_after.timestamp()),
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use rcgen::{CertificateParams, DnType, KeyPair, date_time_ymd};
+
+    use super::*;
+
+    const NOW: UnixTime = UnixTime::from_secs(1_800_000_000);
+
+    fn certificate(names: &[&str], until_year: i32) -> Vec<u8> {
+        let mut params = CertificateParams::default();
+        params.distinguished_name = rcgen::DistinguishedName::new();
+        for name in names {
+            params.distinguished_name.push(DnType::CommonName, *name);
+        }
+        params
+            .distinguished_name
+            .push(DnType::OrganizationName, "Stage");
+        params.not_after = date_time_ymd(until_year, 1, 1);
+        let key = KeyPair::generate().unwrap();
+        params.self_signed(&key).unwrap().der().to_vec()
+    }
+
+    fn rule(subject: &str) -> CertificateRule {
+        CertificateRule {
+            subject: subject.to_owned(),
+            role: Role::Renderer,
+            scope: Scope::all(),
+            images: false,
+        }
+    }
+
+    #[test]
+    fn a_rule_names_the_common_name_or_the_whole_subject() {
+        let der = certificate(&["renderer-1"], 2100);
+        for subject in ["renderer-1", "CN=renderer-1, O=Stage"] {
+            let principal = authenticate(&[rule(subject)], &der, NOW).unwrap();
+            assert_eq!(principal.name, "renderer-1");
+            assert_eq!(principal.key, "certificate:CN=renderer-1, O=Stage");
+            assert_eq!(principal.role, Role::Renderer);
+        }
+        for subject in ["renderer", "CN=renderer-1", "Stage"] {
+            let refused = authenticate(&[rule(subject)], &der, NOW).unwrap_err();
+            assert_eq!(refused.why, "the certificate's subject has no role");
+        }
+    }
+
+    #[test]
+    fn an_expired_or_unreadable_certificate_proves_nothing() {
+        let expired = certificate(&["renderer-1"], 2020);
+        let mut longer = certificate(&["renderer-1"], 2100);
+        longer.push(0);
+        for der in [&expired[..], &longer[..], &expired[..20], b""] {
+            authenticate(&[rule("renderer-1")], der, NOW).unwrap_err();
+        }
+    }
+}

@@ -303,3 +303,6 @@ fn key_content(pem: &str, algorithm: Algorithm) -> Result<Vec<u8>, KeyError> {
         _ => Ok(content),
     }
 }
+
+#[cfg(test)]
+mod tests;

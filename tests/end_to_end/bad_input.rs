@@ -2,6 +2,7 @@
 //!
 //! Tests are named after their row: `a3_…`.
 
+mod access;
 mod actor_packages;
 mod leases;
 mod marker_frames;

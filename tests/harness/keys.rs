@@ -6,7 +6,7 @@ use frontalis_access::{NewToken, Role, Scope, Token, TokenFile, UnixTime};
 use tonic::{GrpcMethod, Request, Status, metadata::AsciiMetadataValue, service::Interceptor};
 
 /// The harness's own keys, and the file in which the server finds all.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Keys {
     path: PathBuf,
     file: TokenFile,

@@ -148,13 +148,11 @@ impl Rule {
         match self.target {
             _ if may == May::Never => Expected::Role,
             Nothing => Expected::Passes,
-            SessionName if reaches => Expected::Passes,
-            SessionName => Expected::NotFound,
             List => Expected::Listed(reaches && object != Object::Missing, object),
-            NewSession if reaches => Expected::Passes,
+            NewSession | SessionName if reaches => Expected::Passes,
             NewSession => Expected::Scope,
             Session | Actor if reaches && object != Object::Missing => Expected::Passes,
-            Session | Actor => Expected::NotFound,
+            SessionName | Session | Actor => Expected::NotFound,
         }
     }
 }

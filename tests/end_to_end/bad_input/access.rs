@@ -1,0 +1,297 @@
+//! Rows I1 to I4: callers who cannot say who they are, who may not, who ask for what is not theirs, and whose proof ends.
+
+mod proofs;
+mod streams;
+
+use std::time::Duration;
+
+use frontalis_access::{NewToken, Role, Token};
+use frontalis_proto::v1::{
+    CreateSessionRequest, GetServerRequest, GetSessionRequest, ReadCurvesRequest,
+    curve_service_client::CurveServiceClient, server_service_client::ServerServiceClient,
+    session_service_client::SessionServiceClient,
+};
+use harness::{HttpAnswer, TestServer, assert_eventually, assert_refused, http_send, now};
+use hyper::Method;
+use tonic::{Code, Request, Status};
+
+use super::{Stage, beside_a_control_session_of};
+use proofs::{Issuer, Proof};
+use streams::Open;
+
+/// A server whose failures are not limited: a row asks for many of them in a moment.
+async fn guarded() -> TestServer {
+    TestServer::start_guarded(|config| config.limits.auth_failures_per_minute = 60_000).await
+}
+
+async fn get_server(server: &TestServer, authorization: Option<&str>) -> Result<String, Status> {
+    let mut client = ServerServiceClient::new(server.bare_channel().await);
+    let mut request = Request::new(GetServerRequest {});
+    if let Some(value) = authorization {
+        let value = value.parse().unwrap();
+        request.metadata_mut().insert("authorization", value);
+    }
+    let answer = client.get_server(request).await?.into_inner();
+    Ok(answer.server.unwrap().caller.unwrap().name)
+}
+
+async fn http_get_as(server: &TestServer, path: &str, authorization: Option<&str>) -> HttpAnswer {
+    let header = authorization.map(|it| ("authorization", it));
+    http_send(server, &Method::GET, path, header.as_slice(), b"").await
+}
+
+fn bearer(token: &Token) -> String {
+    format!("Bearer {}", token.reveal())
+}
+
+/// What a client could tell refusals apart by.
+fn refusal(status: &Status) -> (Code, String, Vec<u8>) {
+    (
+        status.code(),
+        status.message().to_owned(),
+        status.details().to_vec(),
+    )
+}
+
+fn http_refusal(answer: &HttpAnswer) -> (u16, Vec<u8>, Vec<u8>) {
+    let challenge = answer.headers.get("www-authenticate");
+    (
+        answer.status.as_u16(),
+        challenge.map_or_else(Vec::new, |it| it.as_bytes().to_vec()),
+        answer.body.to_vec(),
+    )
+}
+
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn i1_whatever_proves_nothing_is_answered_alike_through_every_door() {
+    let mut server = guarded().await;
+    let issuer = Issuer::new();
+    let revoked = server.keys().grant(Role::Operator, "*");
+    let id = server.keys().file().tokens().last().unwrap().id.clone();
+    server.keys().file().revoke(&id).unwrap();
+    let text = server.keys().file().to_toml() + &issuer.entry();
+    server.keys().write_text(&text);
+    server.reload();
+    let good = issuer.good();
+    assert_eventually!(get_server(&server, Some(&good)).await.is_ok());
+
+    let mut proofs = issuer.bad_proofs();
+    proofs.push(Proof::header("revoked", bearer(&revoked)));
+    let operator = server.operator_token().to_owned();
+    proofs.push(Proof {
+        what: "a good token in the query",
+        authorization: None,
+        query: format!("?access_token={operator}&authorization=Bearer%20{operator}"),
+    });
+    beside_a_control_session_of("I1", server, async |stage| {
+        let server = &stage.server;
+        let expected = refusal(&get_server(server, None).await.unwrap_err());
+        assert_eq!(expected.0, Code::Unauthenticated);
+        let http_expected = http_refusal(&http_get_as(server, "/api/v1/server", None).await);
+        assert_eq!(
+            (http_expected.0, http_expected.1.as_slice()),
+            (401, b"Bearer".as_slice())
+        );
+        for proof in &proofs {
+            let authorization = proof.authorization.as_deref();
+            let status = get_server(server, authorization).await.unwrap_err();
+            assert_eq!(refusal(&status), expected, "{}", proof.what);
+            let path = format!("/api/v1/server{}", proof.query);
+            let answer = http_get_as(server, &path, authorization).await;
+            assert_eq!(http_refusal(&answer), http_expected, "{}", proof.what);
+        }
+        // What is longer than all headers may be does not come as far as the check.
+        let huge = format!("Bearer {}", "a".repeat(1 << 20));
+        get_server(server, Some(&huge)).await.unwrap_err();
+        println!("I1: {} kinds of proof, one answer", proofs.len() + 2);
+        get_server(server, Some(&good)).await.unwrap();
+    })
+    .await;
+}
+
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn i2_a_good_token_of_the_wrong_role_is_denied() {
+    let mut server = guarded().await;
+    let renderer = server.keys().grant(Role::Renderer, "*");
+    server.keys().save();
+    server.reload();
+    let authorization = bearer(&renderer);
+    assert_eventually!(get_server(&server, Some(&authorization)).await.is_ok());
+    beside_a_control_session_of("I2", server, async |stage| {
+        let server = &stage.server;
+        let mut sessions = SessionServiceClient::new(server.channel_as(&renderer).await);
+        let create = CreateSessionRequest {
+            session_id: "mine".to_owned(),
+            actor: "actors/reference".to_owned(),
+            ..CreateSessionRequest::default()
+        };
+        let refused = sessions.create_session(create).await.unwrap_err();
+        assert_refused(&refused, Code::PermissionDenied, "ROLE");
+        let headers = [
+            ("authorization", authorization.as_str()),
+            ("content-type", "application/json"),
+        ];
+        let path = "/api/v1/sessions/subject/end";
+        let answer = http_send(server, &Method::POST, path, &headers, b"{}").await;
+        assert_eq!(answer.status, 403);
+        assert_eq!(answer.json()["type"], "urn:frontalis:problem:ROLE");
+        let publish = Open::publish(server, &renderer, super::SUBJECT).await;
+        assert_refused(&publish.err().unwrap(), Code::PermissionDenied, "ROLE");
+    })
+    .await;
+}
+
+/// Status, headers and body.
+type Whole = (u16, Vec<(String, Vec<u8>)>, Vec<u8>);
+
+/// Everything of an answer but when it was made.
+fn whole(answer: &HttpAnswer) -> Whole {
+    let headers = answer.headers.iter();
+    let headers = headers.filter(|it| it.0 != "date");
+    (
+        answer.status.as_u16(),
+        headers
+            .map(|it| (it.0.to_string(), it.1.as_bytes().to_vec()))
+            .collect(),
+        answer.body.to_vec(),
+    )
+}
+
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn i3_a_foreign_session_is_answered_like_a_missing_one_to_the_byte() {
+    let mut server = guarded().await;
+    let renderer = server.keys().grant(Role::Renderer, "own-*");
+    server.keys().save();
+    server.reload();
+    let authorization = bearer(&renderer);
+    assert_eventually!(get_server(&server, Some(&authorization)).await.is_ok());
+    beside_a_control_session_of("I3", server, async |stage| {
+        let missing = ask_for(stage, &renderer, "foreign").await;
+        stage
+            .server
+            .create_session("foreign", "actors/reference")
+            .await
+            .unwrap();
+        let foreign = ask_for(stage, &renderer, "foreign").await;
+        assert_eq!(foreign, missing);
+        // One that is missing although the scope would hold it says the same, too.
+        let own = ask_for(stage, &renderer, "own-none").await;
+        assert_eq!(own.0, missing.0);
+        assert_refused_as_missing(&own.0);
+    })
+    .await;
+}
+
+type Answers = (Vec<(Code, String, Vec<u8>)>, Vec<Whole>);
+
+/// What every way to name a session answers, over gRPC and over HTTP.
+async fn ask_for(stage: &Stage, token: &Token, id: &str) -> Answers {
+    let server = &stage.server;
+    let name = format!("sessions/{id}");
+    let mut sessions = SessionServiceClient::new(server.channel_as(token).await);
+    let mut curves = CurveServiceClient::new(server.channel_as(token).await);
+    let get = GetSessionRequest { name: name.clone() };
+    let read = ReadCurvesRequest {
+        session: name.clone(),
+        ..ReadCurvesRequest::default()
+    };
+    let statuses = [
+        sessions.get_session(get).await.unwrap_err(),
+        curves.read_curves(read).await.unwrap_err(),
+        Open::subscribe(server, token, &name).await.err().unwrap(),
+    ];
+    let mut answers = Vec::new();
+    for rest in ["", "/curves", "/events"] {
+        let path = format!("/api/v1/sessions/{id}{rest}");
+        let answer = http_get_as(server, &path, Some(&bearer(token))).await;
+        assert_eq!(answer.status, 404, "{path}");
+        answers.push(whole(&answer));
+    }
+    (statuses.iter().map(refusal).collect(), answers)
+}
+
+fn assert_refused_as_missing(refusals: &[(Code, String, Vec<u8>)]) {
+    for (code, message, _) in refusals {
+        assert_eq!(*code, Code::NotFound, "{message}");
+    }
+}
+
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn i4_a_stream_ends_when_its_callers_token_is_revoked() {
+    let mut server = guarded().await;
+    let keys = server.keys();
+    let publisher = keys.grant(Role::Publisher, "*");
+    let renderer = keys.grant(Role::Renderer, "*");
+    keys.save();
+    let mut keys = keys.clone();
+    server.reload();
+    let authorization = bearer(&renderer);
+    assert_eventually!(get_server(&server, Some(&authorization)).await.is_ok());
+    beside_a_control_session_of("I4", server, async |stage| {
+        let open = Open::every_kind(&stage.server, &publisher, &renderer, super::SUBJECT).await;
+        let ids: Vec<String> = keys
+            .file()
+            .tokens()
+            .iter()
+            .map(|it| it.id.clone())
+            .collect();
+        for id in &ids[2..] {
+            keys.file().revoke(id).unwrap();
+        }
+        let revoked_at = tokio::time::Instant::now();
+        keys.save();
+        // Nobody tells the server: it looks by itself.
+        for stream in open {
+            let (kind, code, reason) = stream.end().await;
+            let after = revoked_at.elapsed();
+            println!(
+                "I4: {kind} ended {:.1} s after the token was revoked",
+                after.as_secs_f64()
+            );
+            assert_eq!(
+                (code.as_str(), reason.as_str()),
+                ("UNAUTHENTICATED", "UNAUTHENTICATED"),
+                "{kind}"
+            );
+            assert!(after < Duration::from_secs(30), "{kind}: {after:?}");
+        }
+    })
+    .await;
+}
+
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn i4_a_stream_ends_when_its_callers_token_expires() {
+    let mut server = guarded().await;
+    server.import_reference().await;
+    server
+        .create_session("subject", "actors/reference")
+        .await
+        .unwrap();
+    let keys = server.keys();
+    let expire_time = now().after(Duration::from_secs(6));
+    let mut expiring = |role| {
+        let new = NewToken {
+            expire_time: Some(expire_time),
+            ..NewToken::new("short", role, "*".parse().unwrap())
+        };
+        keys.file().create(new, now()).unwrap()
+    };
+    let (publisher, renderer) = (expiring(Role::Publisher), expiring(Role::Renderer));
+    server.keys().save();
+    server.reload();
+    let authorization = bearer(&renderer);
+    assert_eventually!(get_server(&server, Some(&authorization)).await.is_ok());
+    let open = Open::every_kind(&server, &publisher, &renderer, super::SUBJECT).await;
+    for stream in open {
+        let (kind, code, reason) = stream.end().await;
+        let late_secs = now().secs() - expire_time.secs();
+        println!("I4: {kind} ended {late_secs} s after the token expired");
+        assert_eq!(
+            (code.as_str(), reason.as_str()),
+            ("UNAUTHENTICATED", "UNAUTHENTICATED"),
+            "{kind}"
+        );
+        assert!((0..30).contains(&late_secs), "{kind}: {late_secs} s");
+    }
+    server.stop().await;
+}
