@@ -76,6 +76,7 @@ const ROOF: &[&str] = &["config", "lib", "main", "server", "shutdown"];
 
 /// A library, and the only layers of the server that may name it.
 const LIBRARIES: &[(&str, &[&str])] = &[
+    ("frontalis_access::", &["service"]),
     ("frontalis_proto::", &["service", "wire"]),
     ("tonic::", &["service"]),
     ("axum::", &["service"]),
@@ -263,7 +264,7 @@ fn time_goes_through_the_injected_clock() {
     }
 }
 
-/// The files that may read the wall clock, each once at start or for a date that a person reads.
+/// The files that may read the wall clock: once at start, or for what people date.
 const WALL_CLOCKS: &[&str] = &["server/src/clock.rs", "server/src/server.rs"];
 
 #[test]

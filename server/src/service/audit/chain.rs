@@ -129,3 +129,67 @@ fn hash_of(body: &str) -> String {
     }
     text
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn line(event: &str) -> Line {
+        Line {
+            sequence: 0,
+            time: "2027-01-15T08:00:00Z".to_owned(),
+            event: event.to_owned(),
+            who: "token:t-1 (Stage \"A\", {x}\u{1b}[31m)".to_owned(),
+            from: "grpc 127.0.0.1:9".to_owned(),
+            object: "sessions/s".to_owned(),
+            result: "ok".to_owned(),
+            left_out: 0,
+            previous: String::new(),
+        }
+    }
+
+    fn log(events: &[&str]) -> String {
+        let mut tail = Tail::default();
+        events.iter().map(|it| tail.append(line(it))).collect()
+    }
+
+    #[test]
+    fn a_log_verifies_and_every_changed_letter_is_found_in_its_line() {
+        let text = log(&["a", "b", "c"]);
+        assert_eq!(verify(&text), Ok(3));
+        assert_eq!(verify(""), Ok(0));
+        for at in (0..text.len()).filter(|at| !text[*at..].starts_with('\n')) {
+            let mut bytes = text.clone().into_bytes();
+            bytes[at] = if bytes[at] == b'0' { b'1' } else { b'0' };
+            let changed = String::from_utf8_lossy(&bytes).into_owned();
+            let line = text[..at].matches('\n').count() + 1;
+            assert_eq!(verify(&changed), Err(ChainError { line }), "letter {at}");
+        }
+    }
+
+    #[test]
+    fn lines_that_changed_places_or_are_missing_are_found() {
+        let text = log(&["a", "b", "c"]);
+        let [a, b, c]: [&str; 3] = text.lines().collect::<Vec<_>>().try_into().unwrap();
+        for (lines, line) in [([a, c, b], 2), ([b, a, c], 1), ([a, a, b], 2)] {
+            assert_eq!(verify(&lines.join("\n")), Err(ChainError { line }));
+        }
+        assert_eq!(verify(&[a, c].join("\n")), Err(ChainError { line: 2 }));
+    }
+
+    #[test]
+    fn half_a_line_is_allowed_only_where_the_next_says_so() {
+        let mut tail = Tail::default();
+        let first = tail.append(line("a"));
+        let half = "{\"sequence\":2,\"ti\n";
+        let honest = tail.clone().append(line(TORN));
+        let silent = tail.append(line("b"));
+        assert_eq!(verify(&format!("{first}{half}{honest}")), Ok(2));
+        let silent = format!("{first}{half}{silent}");
+        assert_eq!(verify(&silent), Err(ChainError { line: 2 }));
+        assert_eq!(
+            verify(&format!("{first}{half}")),
+            Err(ChainError { line: 2 })
+        );
+    }
+}

@@ -165,3 +165,33 @@ fn line(entry: Entry, time: &str) -> Line {
         previous: String::new(),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::{super::verify, *};
+
+    fn note(log: &mut AuditLog, event: &'static str) {
+        log.append(vec![Entry::of_server(event, "ok")]).unwrap();
+    }
+
+    #[test]
+    fn a_log_goes_on_after_a_restart_and_after_a_line_that_was_cut() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join(FILE_NAME);
+        let text = || std::fs::read_to_string(&path).unwrap();
+        let mut log = AuditLog::open(folder.path()).unwrap();
+        note(&mut log, "a");
+        note(&mut log, "b");
+        drop(log);
+        note(&mut AuditLog::open(folder.path()).unwrap(), "c");
+        assert_eq!(verify(&text()), Ok(3));
+        let whole = text();
+        for at in whole.rfind("{\"sequence\":3").unwrap() + 1..whole.len() {
+            std::fs::write(&path, &whole[..at]).unwrap();
+            note(&mut AuditLog::open(folder.path()).unwrap(), "d");
+            // Two whole lines, what says that one was cut, and the new one. A whole line without its end counts as cut.
+            let n_entries = verify(&text()).unwrap_or_else(|error| panic!("cut at {at}: {error}"));
+            assert!((4..=5).contains(&n_entries), "cut at {at}: {n_entries}");
+        }
+    }
+}
