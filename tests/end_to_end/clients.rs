@@ -86,8 +86,8 @@ async fn curl_does_everything_that_matters() {
     };
     let command = client(&bash, "curl/client.sh");
     let promises = [
-        "server:", "import:", "model:", "session:", "publish:", "poll:", "end:", "events:",
-        "resume:", "refusal:",
+        "server:", "import:", "model:", "session:", "publish:", "by hand:", "poll:", "end:",
+        "events:", "resume:", "refusal:",
     ];
     run_against_both(&command, &promises).await;
 }
@@ -104,7 +104,7 @@ async fn run_against_both(client: &[OsString], promises: &[&str]) {
     server.stop().await;
 
     let protection = Protection::new();
-    let token = protection.token(Role::Publisher, "python*,typescript,web,curl");
+    let token = protection.token(Role::Publisher, "python*,typescript,web,curl*");
     let operator = protection.token(Role::Operator, "*");
     let server = TestServer::start_with(|it| protection.apply(it)).await;
     let url = format!("https://{}", server.address());

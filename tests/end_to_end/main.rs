@@ -3,6 +3,7 @@
 
 mod access;
 mod access_matrix;
+mod api_page;
 mod bad_input;
 mod clients;
 mod curves_http;

@@ -67,6 +67,17 @@ last=$(grep -o '"number":"[0-9]*"' "$frames" | tail -n 1 | grep -o '[0-9]*')
 expect "\"acceptedThrough\":\"$last\"" "$work/published"
 echo "publish: $last frames taken"
 
+# The same by hand: the start, then a frame of two markers, the second of them not seen.
+ask "${publisher[@]}" --json '{"sessionId": "curl-2", "actor": "actors/reference", "kind": "CAPTURE_KIND_MARKERS"}' \
+  "$api/sessions" > "$work/session"
+ask "${publisher[@]}" --data-binary @- -H 'content-type: application/x-ndjson' \
+  "$api/sessions/curl-2/frames" > "$work/published" << 'LINES'
+{"start": {"publisher": "rig-1", "unit": "LENGTH_UNIT_MILLIMETER", "rateHz": 120, "markerNames": ["brow_inner_left", "chin"]}}
+{"frames": [{"number": "1", "captureTimeNanos": "8333333", "positions": [21.5, 32.0, 88.4, "NaN", "NaN", "NaN"]}]}
+LINES
+expect '"acceptedThrough":"1"' "$work/published"
+echo "by hand: one frame taken"
+
 # Poll: `after` is the last sequence that was read, `run` the run that it counts in.
 after=0 polled=0
 until grep -q "\"frame\":\"$last\"" "$work/polled" 2> "$work/none"; do
