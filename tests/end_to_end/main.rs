@@ -6,6 +6,7 @@ mod access_matrix;
 mod api_page;
 mod bad_input;
 mod clients;
+mod command_line;
 mod curves_http;
 mod demo;
 mod drain;
