@@ -12,6 +12,7 @@ export FRONTALIS_DATA
 # 0: until Ctrl-C.
 DEMO_SECONDS ?= 0
 NEXTEST_VERSION := 0.9.151
+CHURN_SECONDS ?= 600
 # Where the demo listens.
 DEMO_LISTEN ?= 127.0.0.1:7400
 
@@ -103,6 +104,10 @@ bench: ## CPU time of the solve, the stage and the alignment, one thread
 .PHONY: bench-load
 bench-load: ## 64 sessions at 120 Hz with a subscriber each, 30 s: losses and latency
 	cargo run --release --package frontalis-tests --bin load
+
+.PHONY: churn
+churn: ## Sessions made, used and ended for CHURN_SECONDS (ten minutes): memory, files and disk stay flat
+	FRONTALIS_CHURN_SECONDS=$(CHURN_SECONDS) cargo test --package frontalis-tests --test end_to_end -- --nocapture i8_
 
 .PHONY: bench-late
 bench-late: ## A renderer that sleeps 20 s at 120 Hz: what it gets when it wakes

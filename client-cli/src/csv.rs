@@ -161,7 +161,14 @@ mod tests {
     fn names_stay_one_inert_field() {
         assert_eq!(field("a,b"), "\"a,b\"");
         assert_eq!(field("say \"a\""), "\"say \"\"a\"\"\"");
-        assert_eq!(field("=1+1"), "'=1+1");
+        assert_eq!(field("=1,1"), "\"'=1,1\"");
+    }
+
+    #[test]
+    fn i13_a_name_is_never_a_formula() {
+        for name in ["=1+1", "+1", "-1+1", "@SUM(A1)"] {
+            assert_eq!(field(name), format!("'{name}"));
+        }
     }
 
     proptest! {

@@ -4,6 +4,8 @@
 
 mod access;
 mod actor_packages;
+mod cancel;
+mod http_bodies;
 mod leases;
 mod marker_frames;
 mod memory;
@@ -13,6 +15,7 @@ mod packages_glb;
 mod positions;
 mod protocol_order;
 mod protocols;
+mod resources;
 mod websocket;
 
 use frontalis_server::config::Config;

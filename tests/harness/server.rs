@@ -152,6 +152,27 @@ impl TestServer {
         }
     }
 
+    /// What the files with such names take on disk.
+    pub fn disk_bytes(&self, has_name: impl Fn(&str) -> bool) -> u64 {
+        let mut folders = vec![self.folder.path().to_owned()];
+        let mut n_bytes = 0;
+        while let Some(folder) = folders.pop() {
+            for entry in std::fs::read_dir(folder).unwrap() {
+                let entry = entry.unwrap();
+                // A file may be gone by now.
+                let Ok(metadata) = entry.metadata() else {
+                    continue;
+                };
+                if metadata.is_dir() {
+                    folders.push(entry.path());
+                } else if entry.file_name().to_str().is_some_and(&has_name) {
+                    n_bytes += metadata.len();
+                }
+            }
+        }
+        n_bytes
+    }
+
     /// Drains the server and waits until it is gone.
     pub async fn stop(self) -> TempDir {
         self.begin_drain();

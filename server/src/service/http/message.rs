@@ -11,7 +11,7 @@ use tonic::{Code, Status};
 
 use crate::{
     service::grpc::status::{Refusal, refuse},
-    wire::{capture::MAX_FRAMES_PER_MESSAGE, invalid::FieldError},
+    wire::{capture::MAX_FRAMES_PER_MESSAGE, invalid::FieldError, parts::PartCount},
 };
 
 /// Objects of a publisher's message beside its frames: the message, `start`, its `image`, `clock`.
@@ -90,8 +90,10 @@ pub(super) fn from_json<M: Incoming>(text: &[u8]) -> Result<M, Status> {
 ///
 /// # Errors
 ///
-/// `INVALID_ARGUMENT PROTOBUF`.
+/// `INVALID_ARGUMENT PROTOBUF` or `MESSAGE_PARTS`.
 pub(super) fn from_protobuf<M: Incoming>(bytes: Bytes) -> Result<M, Status> {
+    let counted = PartCount::default().take(&bytes);
+    counted.map_err(|error| refuse(Code::InvalidArgument, "MESSAGE_PARTS", error.to_string()))?;
     M::decode(bytes).map_err(|error| {
         tracing::debug!(%error, "a message could not be read");
         let message = "the message is not the protobuf message that is due here";

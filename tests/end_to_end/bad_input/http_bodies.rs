@@ -1,0 +1,212 @@
+//! Rows D11, D12, E1, E2 and E9 where bodies come over plain HTTP.
+
+use harness::{http_send, toy_files, zip};
+use hyper::{Method, StatusCode};
+
+use super::beside_a_control_session;
+
+const JSON: (&str, &str) = ("content-type", "application/json");
+const LINES: (&str, &str) = ("content-type", "application/x-ndjson");
+const SESSIONS: &str = "/api/v1/sessions";
+const SUBJECT: &str = "/api/v1/sessions/subject";
+const FRAMES: &str = "/api/v1/sessions/subject/frames";
+
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn d11_a_compressed_upload_is_not_inflated() {
+    beside_a_control_session("D11", async |stage| {
+        let package = zip(&toy_files());
+        let gzip = [&[0x1f, 0x8b, 8, 0, 0, 0, 0, 0, 0, 3][..], &package].concat();
+        let zstd = [&[0x28, 0xb5, 0x2f, 0xfd][..], &package].concat();
+        for (what, content) in [("gzip", &gzip), ("zstd", &zstd)] {
+            let refused = stage.server.import("bomb", content).await.unwrap_err();
+            harness::assert_refused(&refused, tonic::Code::Unimplemented, "COMPRESSION");
+            let plain = [("content-type", "application/octet-stream")];
+            let path = "/api/v1/actors/bomb";
+            let answer = http_send(&stage.server, &Method::PUT, path, &plain, content).await;
+            assert_problem(&answer, StatusCode::NOT_IMPLEMENTED, "COMPRESSION");
+            let encoded = [plain[0], ("content-encoding", what)];
+            let answer = http_send(&stage.server, &Method::PUT, path, &encoded, content).await;
+            assert_problem(&answer, StatusCode::NOT_IMPLEMENTED, "COMPRESSION");
+        }
+        // An archive in an archive is not opened either.
+        let mut nested = toy_files();
+        nested.insert("neutral.obj".to_owned(), zip(&toy_files()));
+        let refused = stage
+            .server
+            .import("bomb", &zip(&nested))
+            .await
+            .unwrap_err();
+        harness::assert_refused(&refused, tonic::Code::Unimplemented, "COMPRESSION");
+    })
+    .await;
+}
+
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn d12_json_bodies_that_are_not_strict_are_refused() {
+    beside_a_control_session("D12 bodies", async |stage| {
+        let deep = format!(
+            "{{\"settings\":{}{}}}",
+            "{\"a\":".repeat(8_000),
+            "}".repeat(8_000)
+        );
+        let keys: Vec<_> = (0..5_000).map(|it| format!("\"k{it}\":1")).collect();
+        let keys = format!("{{{}}}", keys.join(","));
+        let bodies = [
+            deep.as_str(),
+            keys.as_str(),
+            "",
+            "[]",
+            "null",
+            "\"text\"",
+            "{",
+            "{}{}",
+            "{} x",
+            "{\"settings\":{\"smoothing\":1e400}}",
+            "{\"settings\":{\"smoothing\":NaN}}",
+            "{\"settings\":{\"smoothing\":Infinity}}",
+            "{\"settings\":{\"neutralFrames\":-1}}",
+            "{\"settings\":{\"neutralFrames\":99999999999}}",
+            "{\"settings\":{},\"settings\":{}}",
+            "{\"displayName\":\"a\",\"display_name\":\"b\"}",
+            "{\"displayName\":\"\\ud800\"}",
+            "{\"displayName\":\"a\nb\"}",
+            "{\"unknownField\":1}",
+            "{'actor':'x'}",
+            "{\"actor\":\"x\",}",
+            "{\"kind\":\"CAPTURE_KIND_NOTHING\"}",
+            "// comment\n{}",
+            "\u{feff}{}",
+        ];
+        for body in bodies {
+            let shown: String = body.chars().take(60).collect();
+            let answer = http_send(
+                &stage.server,
+                &Method::POST,
+                SESSIONS,
+                &[JSON],
+                body.as_bytes(),
+            )
+            .await;
+            assert_eq!(
+                answer.status,
+                StatusCode::BAD_REQUEST,
+                "{shown}: {}",
+                answer.text()
+            );
+            assert_eq!(
+                answer.json()["type"],
+                "urn:frontalis:problem:JSON",
+                "{shown}: {}",
+                answer.text()
+            );
+            // An empty patch asks for nothing.
+            if !body.is_empty() {
+                let answer = http_send(
+                    &stage.server,
+                    &Method::PATCH,
+                    SUBJECT,
+                    &[JSON],
+                    body.as_bytes(),
+                )
+                .await;
+                assert_eq!(
+                    answer.status,
+                    StatusCode::BAD_REQUEST,
+                    "{shown}: {}",
+                    answer.text()
+                );
+            }
+            if !body.trim().is_empty() && !body.contains('\n') {
+                let answer = http_send(
+                    &stage.server,
+                    &Method::POST,
+                    FRAMES,
+                    &[LINES],
+                    body.as_bytes(),
+                )
+                .await;
+                assert!(
+                    answer.status.is_client_error(),
+                    "{shown}: {}",
+                    answer.text()
+                );
+            }
+        }
+        let no_text = b"{\"displayName\":\"\xff\"}";
+        let answer = http_send(&stage.server, &Method::POST, SESSIONS, &[JSON], no_text).await;
+        assert_problem(&answer, StatusCode::BAD_REQUEST, "JSON");
+    })
+    .await;
+}
+
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn e1_a_body_above_the_limit_is_413() {
+    beside_a_control_session("E1 bodies", async |stage| {
+        let huge = format!("{{\"displayName\":\"{}\"}}", "x".repeat(2 << 20));
+        for (method, path, kind) in [
+            (Method::POST, SESSIONS, JSON),
+            (Method::PATCH, SUBJECT, JSON),
+            (Method::POST, "/api/v1/sessions/subject/end", JSON),
+            (Method::POST, "/api/v1/sessions/subject/recenter", JSON),
+            (Method::POST, FRAMES, LINES),
+        ] {
+            let answer = http_send(&stage.server, &method, path, &[kind], huge.as_bytes()).await;
+            assert_eq!(
+                answer.status,
+                StatusCode::PAYLOAD_TOO_LARGE,
+                "{path}: {}",
+                answer.text()
+            );
+            assert!(answer.json()["value"].is_u64(), "{path}: {}", answer.text());
+        }
+        let package = vec![0; (64 << 20) + 1];
+        let kind = [("content-type", "application/octet-stream")];
+        let path = "/api/v1/actors/huge";
+        let answer = http_send(&stage.server, &Method::PUT, path, &kind, &package).await;
+        assert_problem(&answer, StatusCode::PAYLOAD_TOO_LARGE, "BASIS_SIZE");
+    })
+    .await;
+}
+
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn e9_a_compressed_body_is_not_taken() {
+    beside_a_control_session("E9 bodies", async |stage| {
+        for encoding in ["gzip", "br", "zstd", "deflate", "identity, gzip", "nothing"] {
+            for (path, kind) in [(SESSIONS, JSON), (FRAMES, LINES)] {
+                let headers = [kind, ("content-encoding", encoding)];
+                let answer = http_send(&stage.server, &Method::POST, path, &headers, b"{}").await;
+                assert_problem(&answer, StatusCode::NOT_IMPLEMENTED, "COMPRESSION");
+            }
+        }
+    })
+    .await;
+}
+
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn e10_another_content_type_on_an_http_path_is_415() {
+    beside_a_control_session("E10 bodies", async |stage| {
+        for kind in [
+            "text/plain",
+            "application/x-www-form-urlencoded",
+            "multipart/form-data",
+            "",
+        ] {
+            for path in [SESSIONS, FRAMES] {
+                let headers = [("content-type", kind)];
+                let answer = http_send(&stage.server, &Method::POST, path, &headers, b"{}").await;
+                assert_problem(&answer, StatusCode::UNSUPPORTED_MEDIA_TYPE, "CONTENT_TYPE");
+            }
+        }
+    })
+    .await;
+}
+
+#[track_caller]
+fn assert_problem(answer: &harness::HttpAnswer, status: StatusCode, reason: &str) {
+    assert_eq!(answer.status, status, "{}", answer.text());
+    assert_eq!(answer.content_type, "application/problem+json");
+    assert_eq!(
+        answer.json()["type"],
+        format!("urn:frontalis:problem:{reason}")
+    );
+}
