@@ -25,10 +25,10 @@ use axum::{
     extract::{MatchedPath, Request, State},
     http::StatusCode,
     middleware::{self, Next},
-    response::Response,
+    response::{IntoResponse as _, Response},
     routing::get,
 };
-use tower_http::{catch_panic::CatchPanicLayer, timeout::TimeoutLayer};
+use tower_http::catch_panic::CatchPanicLayer;
 use utoipa_axum::{router::OpenApiRouter, routes};
 
 use self::openapi::Document;
@@ -70,7 +70,7 @@ pub fn router(doors: Doors) -> Router {
                 .route("/openapi.json", get(openapi::serve))
                 .with_state(description),
         )
-        .layer(within_deadline())
+        .layer(middleware::from_fn(within_deadline))
         .merge(api.layer(middleware::from_fn_with_state(metrics.clone(), count)))
         .method_not_allowed_fallback(fallback::method_not_allowed)
         .with_state(doors)
@@ -88,7 +88,7 @@ fn api() -> (Router<Doors>, utoipa::openapi::OpenApi) {
         .routes(routes!(sessions::recenter))
         .routes(routes!(sessions::end))
         .routes(routes!(curves::read))
-        .layer(within_deadline());
+        .layer(middleware::from_fn(within_deadline));
     // What may take longer has deadlines of its own.
     let transfers = OpenApiRouter::new()
         .routes(routes!(actors::import))
@@ -101,8 +101,13 @@ fn api() -> (Router<Doors>, utoipa::openapi::OpenApi) {
 }
 
 /// A call must be answered within a time.
-fn within_deadline() -> TimeoutLayer {
-    TimeoutLayer::with_status_code(StatusCode::GATEWAY_TIMEOUT, call::DEADLINE)
+async fn within_deadline(request: Request, next: Next) -> Response {
+    let answered = tokio::time::timeout(call::DEADLINE, next.run(request)).await;
+    answered.unwrap_or_else(|_elapsed| {
+        let detail = "the request was not complete, or not answered, within 10 s";
+        let status = StatusCode::GATEWAY_TIMEOUT;
+        Problem::new(status, "MESSAGE_DEADLINE", detail).into_response()
+    })
 }
 
 async fn count(State(metrics): State<Metrics>, request: Request, next: Next) -> Response {

@@ -96,3 +96,89 @@ impl hyper::body::Body for Guarded {
             .map_or_else(SizeHint::default, Body::size_hint)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use axum::{Router, extract::Request, middleware::map_response_with_state, routing::post};
+    use futures::StreamExt as _;
+    use http_body_util::{BodyExt as _, StreamBody};
+    use hyper_util::rt::{TokioExecutor, TokioIo};
+    use tower::ServiceExt as _;
+
+    use super::*;
+    use crate::service::grpc::status::reason_of;
+
+    /// Two frames, then a panic, or none.
+    fn frames(panics: bool) -> Body {
+        let frames = futures::stream::iter(0..4).map(move |n| {
+            assert!(n < 2 || !panics, "a mistake that the test makes");
+            Ok::<_, axum::Error>(Frame::data(Bytes::from_static(b"x")))
+        });
+        // Others of the connection have their turn between two frames.
+        let paced = frames.then(async |it| {
+            tokio::task::yield_now().await;
+            it
+        });
+        Body::new(StreamBody::new(Box::pin(paced)))
+    }
+
+    fn router(metrics: &Metrics) -> Router {
+        let grpc = Router::new()
+            .route("/grpc", post(async || frames(true)))
+            .route("/well", post(async || frames(false)))
+            .layer(map_response_with_state(metrics.clone(), guard_grpc));
+        let http = Router::new()
+            .route("/http", post(async || frames(true)))
+            .layer(map_response_with_state(metrics.clone(), guard_http));
+        grpc.merge(http)
+    }
+
+    #[tokio::test]
+    async fn a_panic_of_one_stream_leaves_its_siblings_on_the_connection_alone() {
+        let metrics = Metrics::new("test");
+        let (client, server) = tokio::io::duplex(64 * 1024);
+        let service = hyper_util::service::TowerToHyperService::new(router(&metrics));
+        let serving = hyper::server::conn::http2::Builder::new(TokioExecutor::new())
+            .serve_connection(TokioIo::new(server), service);
+        let serving = tokio::spawn(serving);
+        let (sender, connection) =
+            hyper::client::conn::http2::handshake(TokioExecutor::new(), TokioIo::new(client))
+                .await
+                .unwrap();
+        let driving = tokio::spawn(connection);
+        let call = async |path: &str| {
+            let request = Request::post(format!("http://test{path}"));
+            let request = request.body(Body::empty()).unwrap();
+            let answer = sender.clone().send_request(request).await.unwrap();
+            answer.into_body().collect().await
+        };
+        let (grpc, http, well) = tokio::join!(call("/grpc"), call("/http"), call("/well"));
+        let grpc = grpc.unwrap();
+        let status = Status::from_header_map(grpc.trailers().unwrap()).unwrap();
+        assert_eq!(status.code(), Code::Internal);
+        assert_eq!(reason_of(&status).as_deref(), Some("PANIC"));
+        assert_eq!(status.message(), DETAIL);
+        assert_eq!(grpc.to_bytes().len(), 2);
+        assert!(http.is_err(), "half an answer looks complete");
+        assert_eq!(well.unwrap().to_bytes().len(), 4);
+        assert_eq!(call("/well").await.unwrap().to_bytes().len(), 4);
+        assert_eq!(metrics.panics(), 2);
+        drop(sender);
+        driving.await.unwrap().unwrap();
+        serving.await.unwrap().unwrap();
+    }
+
+    #[tokio::test]
+    async fn a_stream_that_panicked_is_at_its_end() {
+        let metrics = Metrics::new("test");
+        let request = Request::post("/grpc").body(Body::empty()).unwrap();
+        let mut body = router(&metrics).oneshot(request).await.unwrap().into_body();
+        let mut n_frames = 0;
+        while let Some(frame) = body.frame().await {
+            frame.unwrap();
+            n_frames += 1;
+        }
+        assert_eq!(n_frames, 3);
+        assert!(body.is_end_stream());
+    }
+}
