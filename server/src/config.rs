@@ -116,7 +116,7 @@ pub struct Transport {
     pub handshake_deadline_secs: u64,
     /// Time for the HTTP/2 preface or the HTTP/1 headers to arrive, seconds.
     pub header_deadline_secs: u64,
-    /// Time for a message that has begun to be complete, seconds.
+    /// Time for a gRPC message that has begun to be complete, seconds.
     pub message_deadline_secs: u64,
     /// What a peer may send ahead on one stream, KiB.
     pub stream_window_kib: u64,
