@@ -2,7 +2,7 @@
 //!
 //! | Room | Holds |
 //! | --- | --- |
-//! | [`connection`] | one HTTP/2 connection to a server, with the pings that find a dead peer |
+//! | [`connection`] | one HTTP/2 connection to a server, with TLS and a token where they are asked for, and pings that find a dead peer |
 //! | [`capture_client`] | publishes marker frames; reconnects and resumes so that every frame takes effect once |
 //! | [`curve_client`] | follows a session's curves, newest first or every frame without a hole |
 //! | [`error`] | what a server refused, its reason, and what to do about it |

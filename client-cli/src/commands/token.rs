@@ -280,16 +280,19 @@ fn state(record: &TokenRecord, now: UnixTime) -> &'static str {
 }
 
 fn as_json(record: &TokenRecord, now: UnixTime) -> Value {
-    json!({
+    let mut value = json!({
         "id": record.id,
         "name": record.name,
         "role": record.role.name(),
         "sessions": record.scope.entries(),
         "images": record.images,
         "createTime": record.create_time.to_string(),
-        "expireTime": record.expire_time.map(|it| it.to_string()),
         "state": state(record, now),
-    })
+    });
+    if let Some(at) = record.expire_time {
+        value["expireTime"] = json!(at.to_string());
+    }
+    value
 }
 
 #[cfg(test)]
