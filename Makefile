@@ -112,3 +112,8 @@ churn: ## Sessions made, used and ended for CHURN_SECONDS (ten minutes): memory,
 .PHONY: bench-late
 bench-late: ## A renderer that sleeps 20 s at 120 Hz: what it gets when it wakes
 	cargo run --release --package frontalis-tests --bin late
+
+.PHONY: bench-doors
+bench-doors: ## Processor time of a delivered sample at each door beside plain TCP, and what clients that do not read cost
+	cargo build --release --bin frontalis-server
+	cargo run --release --package frontalis-tests --bin doors

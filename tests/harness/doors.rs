@@ -1,15 +1,19 @@
 //! Every way in but gRPC, with as little of a client as there can be: bytes out, messages back.
 
+mod costs;
 mod events;
 mod grpc_web;
 mod lines;
 mod socket_frames;
+mod stalled;
 mod web_socket;
 
+pub use costs::DoorCosts;
 pub use events::{Event, EventStream};
 pub use grpc_web::GrpcWeb;
 pub use lines::LinePublisher;
 pub use socket_frames::{SocketFrame, SocketFrames};
+pub use stalled::StalledDoors;
 pub use web_socket::{Closed, WebSocket};
 
 use frontalis_proto::v1::{CurveEnd, CurveHeader, CurveSample, Gap, SubscribeResponse};

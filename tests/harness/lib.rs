@@ -30,8 +30,8 @@ mod subscriber;
 
 pub use control_session::{ControlReport, ControlSession};
 pub use doors::{
-    Closed, Event, EventStream, GrpcWeb, LinePublisher, Received, SocketFrame, SocketFrames,
-    WebSocket,
+    Closed, DoorCosts, Event, EventStream, GrpcWeb, LinePublisher, Received, SocketFrame,
+    SocketFrames, StalledDoors, WebSocket,
 };
 pub use http::{HttpAnswer, http_get, http_send};
 pub use keys::{Bearer, Keys, now};

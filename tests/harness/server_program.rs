@@ -66,6 +66,20 @@ impl ServerProgram {
         std::fs::write(file, "5").unwrap();
     }
 
+    /// Processor time of all its threads so far, nanoseconds.
+    pub fn cpu_nanos(&self) -> u64 {
+        let folder = format!("/proc/{}/task", self.child.id());
+        let threads = std::fs::read_dir(folder).unwrap();
+        let nanos = |thread: std::io::Result<std::fs::DirEntry>| -> u64 {
+            // A thread may end between the two looks.
+            let text = std::fs::read_to_string(thread.unwrap().path().join("schedstat"));
+            text.map_or(0, |it| {
+                it.split_whitespace().next().unwrap().parse().unwrap()
+            })
+        };
+        threads.map(nanos).sum()
+    }
+
     /// Open files and sockets.
     pub fn n_open_files(&self) -> usize {
         let folder = format!("/proc/{}/fd", self.child.id());

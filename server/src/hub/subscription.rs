@@ -136,6 +136,7 @@ pub struct Subscription {
     _seat: Seat,
     changes: watch::Receiver<u64>,
     reading: Reading,
+    max_entries: usize,
     n_states_heard: u64,
     announced: bool,
     skipped_samples: u64,
@@ -175,6 +176,7 @@ impl Subscription {
             _seat: seat,
             changes: hub.watch(),
             reading,
+            max_entries: BATCH_ENTRIES,
             n_states_heard,
             announced: false,
             skipped_samples: 0,
@@ -192,6 +194,11 @@ impl Subscription {
         {
             held.grant(credits);
         }
+    }
+
+    /// At most so many entries in an update from now on, where samples are large; one at least.
+    pub fn limit_entries(&mut self, n_entries: usize) {
+        self.max_entries = n_entries.clamp(1, BATCH_ENTRIES);
     }
 
     /// Samples that were passed over since the subscription began.
@@ -278,7 +285,7 @@ impl Subscription {
     ) -> Result<(), LostRange> {
         match &mut self.reading {
             Reading::Every(cursor) => {
-                shared.read_batch(cursor, BATCH_ENTRIES, &mut update.samples, &mut update.gaps)?;
+                shared.read_batch(cursor, self.max_entries, &mut update.samples, &mut update.gaps)?;
                 shared.window.reader_at(cursor);
                 let served_through = cursor.sequence - 1;
                 self.tally

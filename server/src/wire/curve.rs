@@ -36,6 +36,21 @@ pub struct SampleDetail {
     pub with_markers: bool,
 }
 
+/// A response stays below about so much in either form: several of them may wait for a slow reader (CONTRACTS D-20).
+const RESPONSE_BYTES: usize = 64 * 1024;
+/// A number with its comma, in JSON, which is the longer form.
+const NUMBER_BYTES: usize = 13;
+/// What a sample holds beside its activations and markers.
+const SAMPLE_BYTES: usize = 1_024;
+
+/// Samples of that many muscles and markers that go into one response.
+pub fn samples_in_a_response(n_muscles: usize, n_markers: usize, detail: SampleDetail) -> usize {
+    // Six coordinates and an index for each marker.
+    let n_of_markers = if detail.with_markers { 7 * n_markers } else { 0 };
+    let n_bytes = SAMPLE_BYTES + NUMBER_BYTES * (n_muscles + n_of_markers);
+    (RESPONSE_BYTES / n_bytes).max(1)
+}
+
 /// Why a subscriber's request is refused.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum SubscribeRefusal {

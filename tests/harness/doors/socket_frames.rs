@@ -28,13 +28,7 @@ impl SocketFrames {
     pub async fn open(server: &TestServer, id: &str, subprotocol: &str) -> Self {
         let stream = TcpStream::connect(server.address()).await.unwrap();
         let mut stream = BufReader::new(stream);
-        let request = format!(
-            "GET /api/v1/sessions/{id}/stream HTTP/1.1\r\nHost: {}\r\nConnection: Upgrade\r\n\
-             Upgrade: websocket\r\nSec-WebSocket-Version: 13\r\n\
-             Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\
-             Sec-WebSocket-Protocol: {subprotocol}\r\n\r\n",
-            server.address()
-        );
+        let request = Self::handshake(server, id, subprotocol);
         stream.write_all(request.as_bytes()).await.unwrap();
         let mut head = Vec::new();
         while !head.ends_with(b"\r\n\r\n") {
@@ -45,6 +39,17 @@ impl SocketFrames {
         // The accept value of the key above (RFC 6455, section 1.3).
         assert!(head.contains("s3pPLMBiTxaQ9kYGzzhZRbK+xOo="), "{head}");
         Self { stream }
+    }
+
+    /// The request that asks for the upgrade.
+    pub fn handshake(server: &TestServer, id: &str, subprotocol: &str) -> String {
+        format!(
+            "GET /api/v1/sessions/{id}/stream HTTP/1.1\r\nHost: {}\r\nConnection: Upgrade\r\n\
+             Upgrade: websocket\r\nSec-WebSocket-Version: 13\r\n\
+             Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\
+             Sec-WebSocket-Protocol: {subprotocol}\r\n\r\n",
+            server.address()
+        )
     }
 
     /// A masked frame with this first byte; its mask is zero.

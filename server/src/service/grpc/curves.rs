@@ -88,7 +88,13 @@ impl CurvesGrpc {
         )?;
         peer.caller.may_in(Action::Subscribe, &request.session)?;
         let session = in_process(&self.registry, &self.store, &request.session).await?;
-        let subscription = session.hub().subscribe(request.spec)?;
+        let mut subscription = session.hub().subscribe(request.spec)?;
+        let actor = session.actor();
+        subscription.limit_entries(wire::samples_in_a_response(
+            actor.muscle_set().muscles().len(),
+            actor.markers().len(),
+            request.detail,
+        ));
         let header = self.header(&session);
         let flow = Flow {
             subscription,

@@ -146,3 +146,12 @@ fn a_wrong_field_is_named() {
         "RATE",
     );
 }
+
+#[test]
+fn a_response_is_as_short_as_it_must_be_for_a_slow_reader() {
+    let plain = SampleDetail::default();
+    let full = SampleDetail { with_markers: true };
+    assert_eq!(samples_in_a_response(16, 27, plain), 53);
+    assert_eq!(samples_in_a_response(16, 27, full), 17);
+    assert_eq!(samples_in_a_response(64, 1_024, full), 1);
+}
