@@ -50,7 +50,7 @@ runner:
 
 # What the clients of tests/clients need; their tests are left out by name when it cannot be had.
 .PHONY: clients
-clients: python node
+clients: python node schemathesis-program
 
 .PHONY: python
 python:
@@ -61,6 +61,23 @@ python:
 	@python3 -m venv .venv
 	@.venv/bin/pip install --quiet --disable-pip-version-check --requirement $<
 	@touch $@
+
+.PHONY: schemathesis-program
+schemathesis-program:
+	@$(MAKE) --no-print-directory .venv-schemathesis/ready \
+	  || echo "left out: openapi::schemathesis: python3 with venv and pip is needed to make .venv-schemathesis"
+
+.venv-schemathesis/ready: tests/clients/schemathesis/requirements.txt
+	@python3 -m venv .venv-schemathesis
+	@.venv-schemathesis/bin/pip install --quiet --disable-pip-version-check --requirement $<
+	@touch $@
+
+# Many more cases than the test has, against the same server.
+SCHEMATHESIS_EXAMPLES ?= 400
+.PHONY: schemathesis
+schemathesis: schemathesis-program ## Every check of schemathesis on /openapi.json, for longer than the test does
+	FRONTALIS_SCHEMATHESIS_EXAMPLES=$(SCHEMATHESIS_EXAMPLES) \
+	  cargo test --package frontalis-tests --test end_to_end -- --nocapture openapi::schemathesis_finds_nothing
 
 .PHONY: node
 node:

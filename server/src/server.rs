@@ -26,7 +26,7 @@ use crate::{
             sessions::SessionsGrpc,
         },
         guard::Guard,
-        http::Doors,
+        http::{Doors, LargeBodies},
         keeper::{self, EVENT_CAPACITY, Keeper},
         listener::{
             Listener,
@@ -158,6 +158,7 @@ pub async fn run(
         services,
         metrics: metrics.clone(),
         phases: phases.clone(),
+        large_bodies: LargeBodies::default(),
     };
     let access = access(&config, audit, metrics.clone())?;
     let guard = Guard::new(&config, tls.clone());

@@ -19,6 +19,18 @@ const TLS_KIB: u64 = 56;
 /// Largest message of a call that does not publish, bytes.
 pub const SMALL_MESSAGE_BYTES: usize = 64 * 1024;
 
+/// Largest body of an HTTP call with JSON, bytes (BAD_INPUT D12).
+pub const LARGE_BODY_BYTES: usize = 1024 * 1024;
+
+/// So many bodies may be larger than [`SMALL_MESSAGE_BYTES`] at once.
+pub const LARGE_BODIES: usize = 64;
+
+/// A large body is held as bytes and as the message that was read of it.
+const BODY_COPIES: u64 = 2;
+
+/// A package on its way out is held as stored, gathered, and converted.
+const EXPORT_COPIES: u64 = 3;
+
 /// Program, database cache, runtime.
 const FIXED_BYTES: u64 = 128 * MIB;
 
@@ -50,6 +62,8 @@ pub fn worst_case(config: &Config) -> Vec<MemoryItem> {
         product(limits.imports, limits.package_mib),
         IMPORT_COPIES * MIB,
     );
+    let per_export = product(limits.package_mib, EXPORT_COPIES * MIB).saturating_add(ACTOR_BYTES);
+    let bodies = product(LARGE_BODIES as u64, BODY_COPIES * LARGE_BODY_BYTES as u64);
     vec![
         item("waiting frames and windows of all sessions", sessions),
         item("messages on their way in", messages),
@@ -59,10 +73,8 @@ pub fn worst_case(config: &Config) -> Vec<MemoryItem> {
             product(limits.connections, product(per_connection, KIB)),
         ),
         item("imports", imports),
-        item(
-            "exports",
-            product(product(limits.exports, limits.package_mib), MIB),
-        ),
+        item("exports", product(limits.exports, per_export)),
+        item("large bodies of HTTP", bodies),
         item("loaded actors", product(limits.cached_actors, ACTOR_BYTES)),
         item("the program itself", FIXED_BYTES),
     ]

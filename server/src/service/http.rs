@@ -21,7 +21,7 @@ mod stream;
 mod streams;
 
 use axum::{
-    Router,
+    Extension, Router,
     extract::{MatchedPath, Request, State},
     http::StatusCode,
     middleware::{self, Next},
@@ -29,6 +29,7 @@ use axum::{
     routing::get,
 };
 use tower_http::catch_panic::CatchPanicLayer;
+use utoipa::openapi::OpenApi;
 use utoipa_axum::{router::OpenApiRouter, routes};
 
 use self::openapi::Document;
@@ -38,6 +39,7 @@ use crate::{
     telemetry::{Metrics, Protocol},
 };
 
+pub use call::LargeBodies;
 pub use fallback::{GrpcPanic, grpc_only, http_only, refuse_in_kind, unknown};
 pub use problem::{Problem, with_instance};
 
@@ -50,35 +52,33 @@ pub struct Doors {
     pub metrics: Metrics,
     /// Whether the server drains.
     pub phases: Phases,
+    /// Places for bodies that are large.
+    pub large_bodies: LargeBodies,
 }
 
 /// The routes of plain HTTP.
 pub fn router(doors: Doors) -> Router {
     let metrics = doors.metrics.clone();
-    let (api, operations) = api();
-    let description = Document::new(&operations, false);
-    Router::new()
-        .route("/", get(observe::index))
-        .route("/healthz", get(observe::healthz))
-        .route("/readyz", get(observe::readyz))
-        .route("/metrics", get(observe::metrics))
-        .route("/docs", get(docs::index))
+    let (api, operations) = api(&metrics);
+    let tokens = doors.services.server.asks_for_tokens();
+    api.route("/docs", get(docs::index))
         .route("/docs/", get(docs::page))
         .route("/docs/{*file}", get(docs::file))
-        .merge(
-            Router::new()
-                .route("/openapi.json", get(openapi::serve))
-                .with_state(description),
-        )
-        .layer(middleware::from_fn(within_deadline))
-        .merge(api.layer(middleware::from_fn_with_state(metrics.clone(), count)))
+        .layer(Extension(Document::new(&operations, tokens)))
         .method_not_allowed_fallback(fallback::method_not_allowed)
         .with_state(doors)
         .layer(CatchPanicLayer::custom(fallback::HttpPanic(metrics)))
 }
 
-/// Every route under `/api/v1` with its description; a route cannot be here without one.
-fn api() -> (Router<Doors>, utoipa::openapi::OpenApi) {
+/// Every route with its description; a route cannot be here without one.
+fn api(metrics: &Metrics) -> (Router<Doors>, OpenApi) {
+    let observation = OpenApiRouter::new()
+        .routes(routes!(observe::index))
+        .routes(routes!(observe::healthz))
+        .routes(routes!(observe::readyz))
+        .routes(routes!(observe::metrics))
+        .routes(routes!(openapi::serve))
+        .layer(middleware::from_fn(within_deadline));
     let calls = OpenApiRouter::new()
         .routes(routes!(server::get))
         .routes(routes!(actors::list))
@@ -97,6 +97,8 @@ fn api() -> (Router<Doors>, utoipa::openapi::OpenApi) {
     calls
         .merge(transfers)
         .merge(streams::routes())
+        .layer(middleware::from_fn_with_state(metrics.clone(), count))
+        .merge(observation)
         .split_for_parts()
 }
 

@@ -163,10 +163,11 @@ fn check_control_space(number: i32) -> Result<(), SubscribeRefusal> {
 }
 
 fn delivery(sent: &v1::SubscribeStart, can_return_credits: bool) -> Result<Delivery, FieldError> {
+    let max_rate_hz = max_rate_hz(sent.max_rate_hz)?;
     match v1::Delivery::try_from(sent.delivery) {
         Ok(v1::Delivery::Unspecified | v1::Delivery::Latest) => Ok(Delivery::Latest {
             credits: (can_return_credits && sent.credits > 0).then_some(sent.credits),
-            max_rate_hz: max_rate_hz(sent.max_rate_hz)?,
+            max_rate_hz,
         }),
         Ok(v1::Delivery::EveryFrame) => Ok(Delivery::EveryFrame(match sent.from_sequence {
             _ if sent.from_oldest => StartAt::Oldest,
@@ -180,11 +181,14 @@ fn delivery(sent: &v1::SubscribeStart, can_return_credits: bool) -> Result<Deliv
     }
 }
 
+/// Far more than any stream has: what is asked beyond is a mistake.
+const MAX_RATE_HZ: f32 = 1e6;
+
 fn max_rate_hz(sent: f32) -> Result<Option<f64>, FieldError> {
-    if sent.is_finite() && sent >= 0.0 {
+    if (0.0..=MAX_RATE_HZ).contains(&sent) {
         return Ok((sent > 0.0).then_some(f64::from(sent)));
     }
-    let detail = "the rate must be finite and not negative";
+    let detail = "the rate must be from 0 to 1,000,000";
     Err(FieldError::unusable("max_rate_hz", "RATE", detail))
 }
 

@@ -41,6 +41,11 @@ impl ServerGrpc {
             phases,
         }
     }
+
+    /// Whether callers must prove who they are.
+    pub fn asks_for_tokens(&self) -> bool {
+        self.protection.tokens
+    }
 }
 
 #[tonic::async_trait]

@@ -19,6 +19,7 @@ use tonic::metadata::MetadataMap;
 use super::problem::Problem;
 use crate::service::peer::Door;
 
+pub use body::LargeBodies;
 pub(super) use body::{Message, PathFields, check_encoding, media_type};
 
 /// A call must be answered within this time, except for uploads and streams.

@@ -22,7 +22,7 @@ pub(super) struct CurvesQuery {
     #[param(required = false, maximum = 18_446_744_073_709_551_615_u64)]
     run: u64,
     /// The last sequence that the client has; absent: from the oldest that is kept.
-    #[param(maximum = 18_446_744_073_709_551_615_u64)]
+    #[param(required = false, value_type = u64, maximum = 18_446_744_073_709_551_615_u64)]
     after: Option<u64>,
     /// Samples in the answer; 0: 100.
     #[serde(default)]

@@ -48,7 +48,7 @@ const RESPONSES_OF_AN_END: usize = 3;
             status = 200,
             description = "Server-sent events; the data of each is one message.",
             content(
-                (ref("#/components/schemas/SubscribeResponse") = "text/event-stream"),
+                (ref("#/components/schemas/CurveEvent") = "text/event-stream"),
             ),
         ),
         (status = 204, description = "The session has ended, and the client that came back has all of it."),

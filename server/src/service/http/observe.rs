@@ -9,7 +9,7 @@ use axum::{
     response::{IntoResponse, Response},
 };
 
-use super::{Doors, problem::Problem};
+use super::{Doors, openapi::Refusals, problem::Problem};
 use crate::{
     hub::SessionState,
     service::access::{Action, Caller},
@@ -49,6 +49,15 @@ const STATES: [SessionState; 6] = [
     SessionState::Failed,
 ];
 
+/// What there is to see, as text.
+#[utoipa::path(
+    get,
+    path = "/",
+    operation_id = "index",
+    tag = "observation",
+    security(()),
+    responses((status = 200, description = "The paths.", body = String, content_type = "text/plain")),
+)]
 pub(super) async fn index(State(doors): State<Doors>) -> String {
     let warning = if doors.metrics.is_insecure() {
         "\nINSECURE: others can reach this port, without TLS or without tokens.\n"
@@ -59,11 +68,37 @@ pub(super) async fn index(State(doors): State<Doors>) -> String {
 }
 
 /// Live: the runtime answers.
+#[utoipa::path(
+    get,
+    path = "/healthz",
+    operation_id = "isLive",
+    tag = "observation",
+    security(()),
+    responses(
+        (status = 200, description = "`ok`.", body = String, content_type = "text/plain"),
+    ),
+)]
 pub(super) async fn healthz() -> &'static str {
     "ok\n"
 }
 
 /// Ready: new sessions are accepted.
+#[utoipa::path(
+    get,
+    path = "/readyz",
+    operation_id = "isReady",
+    tag = "observation",
+    security(()),
+    responses(
+        (status = 200, description = "`ready`.", body = String, content_type = "text/plain"),
+        (
+            status = 503,
+            description = "The server is shutting down.",
+            body = ref("#/components/schemas/Problem"),
+            content_type = "application/problem+json",
+        ),
+    ),
+)]
 pub(super) async fn readyz(State(doors): State<Doors>) -> Response {
     if doors.phases.is_draining() {
         let detail = "the server is shutting down";
@@ -72,6 +107,22 @@ pub(super) async fn readyz(State(doors): State<Doors>) -> Response {
     "ready\n".into_response()
 }
 
+/// Figures for a monitoring system.
+#[utoipa::path(
+    get,
+    path = "/metrics",
+    operation_id = "metrics",
+    tag = "observation",
+    responses(
+        (
+            status = 200,
+            description = "OpenMetrics.",
+            body = String,
+            content_type = "application/openmetrics-text",
+        ),
+        Refusals,
+    ),
+)]
 pub(super) async fn metrics(
     State(doors): State<Doors>,
     Extension(caller): Extension<Caller>,

@@ -6,13 +6,14 @@
 mod limits;
 mod messages;
 mod own;
+mod parameters;
 mod refusals;
 mod schema;
 
 use std::{collections::BTreeSet, sync::Arc};
 
 use axum::{
-    extract::State,
+    Extension,
     http::{HeaderValue, header},
     response::{IntoResponse as _, Response},
 };
@@ -22,7 +23,7 @@ use utoipa::openapi::OpenApi;
 
 use messages::Messages;
 
-pub(super) use messages::{enum_names, not_yet};
+pub(super) use parameters::{display_name, length_unit, not_yet};
 pub(super) use refusals::{BodyRefusals, ObjectRefusals, RangeRefusals, Refusals, StateRefusals};
 
 /// How a schema of this document is named.
@@ -41,8 +42,16 @@ impl Document {
     }
 }
 
-/// `GET /openapi.json`.
-pub(super) async fn serve(State(document): State<Document>) -> Response {
+/// This document.
+#[utoipa::path(
+    get,
+    path = "/openapi.json",
+    operation_id = "describe",
+    tag = "observation",
+    security(()),
+    responses((status = 200, description = "OpenAPI 3.1.", content_type = "application/json")),
+)]
+pub(super) async fn serve(Extension(document): Extension<Document>) -> Response {
     let kind = HeaderValue::from_static("application/json");
     let body = Bytes::clone(&document.0);
     ([(header::CONTENT_TYPE, kind)], body).into_response()
@@ -51,9 +60,12 @@ pub(super) async fn serve(State(document): State<Document>) -> Response {
 /// The whole document.
 pub(super) fn document(operations: &OpenApi, tokens: bool) -> Value {
     let mut document = json!(operations);
-    bodies(&mut document["paths"]).for_each(|body| {
-        body["required"] = json!(!references(body).iter().any(|it| limits::may_be_absent(it)));
-    });
+    for operation in operations_of(&mut document["paths"]) {
+        if let Some(body) = operation.get_mut("requestBody") {
+            let may_be_absent = references(body).iter().any(|it| limits::may_be_absent(it));
+            body["required"] = json!(!may_be_absent);
+        }
+    }
     document["info"] = json!({
         "title": "Frontalis",
         "version": env!("CARGO_PKG_VERSION"),
@@ -85,7 +97,12 @@ pub(super) fn document(operations: &OpenApi, tokens: bool) -> Value {
 /// Everything that the paths refer to, and what that refers to.
 fn schemas(paths: &mut Value) -> Value {
     let messages = Messages::of_the_protocol();
-    let read = bodies(paths).flat_map(|it| references(it)).collect();
+    let is_read = |it: &mut Value| {
+        let mut read = references(&it["requestBody"]);
+        read.extend(references(&it["x-reads"]));
+        read
+    };
+    let read = operations_of(paths).flat_map(is_read).collect();
     let read = messages.closure(&read);
     let mut schemas = own::schemas();
     let mut wanted = references(paths);
@@ -100,11 +117,10 @@ fn schemas(paths: &mut Value) -> Value {
     Value::Object(schemas)
 }
 
-/// The request bodies of all operations.
-fn bodies(paths: &mut Value) -> impl Iterator<Item = &mut Value> {
+fn operations_of(paths: &mut Value) -> impl Iterator<Item = &mut Value> {
     let items = paths.as_object_mut().into_iter().flatten();
     let operations = items.filter_map(|(_, item)| item.as_object_mut()).flatten();
-    operations.filter_map(|(_, operation)| operation.get_mut("requestBody"))
+    operations.map(|(_, operation)| operation)
 }
 
 /// The names of the schemas that `value` refers to.
@@ -127,7 +143,7 @@ fn collect(value: &Value, found: &mut BTreeSet<String>) {
     }
 }
 
-const TAGS: [(&str, &str); 5] = [
+const TAGS: [(&str, &str); 6] = [
     ("server", "The server itself, and who asks."),
     (
         "actors",
@@ -139,6 +155,7 @@ const TAGS: [(&str, &str); 5] = [
     ),
     ("capture", "Frames in."),
     ("curves", "Curves out."),
+    ("observation", "Health, figures, and this description."),
 ];
 
 const INTRODUCTION: &str = "\

@@ -73,7 +73,17 @@ const WRITE_BYTES: usize = 8 * 1024 * 1024;
         (status = 426, description = "The request asks for no WebSocket.", content_type = "application/problem+json", body = ref("#/components/schemas/Problem")),
         Refusals,
     ),
-    extensions(("x-grpc-method" = json!("frontalis.v1.CurveService/Subscribe, frontalis.v1.CaptureService/PublishMarkers"))),
+    extensions(
+        ("x-grpc-method" = json!("frontalis.v1.CurveService/Subscribe, frontalis.v1.CaptureService/PublishMarkers")),
+        ("x-reads" = json!([
+            { "$ref": "#/components/schemas/SubscribeRequest" },
+            { "$ref": "#/components/schemas/PublishMarkersRequest" },
+        ])),
+        ("x-writes" = json!([
+            { "$ref": "#/components/schemas/SubscribeResponse" },
+            { "$ref": "#/components/schemas/PublishResponse" },
+        ])),
+    ),
 )]
 pub(super) async fn open(
     State(doors): State<Doors>,

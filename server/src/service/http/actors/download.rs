@@ -44,6 +44,16 @@ pub(in crate::service::http) struct RevisionQuery {
     revision: u32,
 }
 
+/// What the client has.
+#[derive(IntoParams)]
+#[into_params(parameter_in = Header)]
+#[expect(dead_code, reason = "only describes the header")]
+struct TagsHeader {
+    /// Tags of what the client has, or `*`.
+    #[param(rename = "if-none-match", required = false)]
+    tags: String,
+}
+
 /// The face with its actuation basis as a GLB, in meters, one morph target a muscle; a stored ZIP is converted.
 #[utoipa::path(
     get,
@@ -53,7 +63,7 @@ pub(in crate::service::http) struct RevisionQuery {
     params(
         ActorPath,
         RevisionQuery,
-        ("if-none-match" = Option<String>, Header, description = "Tags that the client has."),
+        TagsHeader,
     ),
     responses(
         (
@@ -95,7 +105,7 @@ pub(in crate::service::http) async fn model(
     params(
         ActorPath,
         RevisionQuery,
-        ("if-none-match" = Option<String>, Header, description = "Tags that the client has."),
+        TagsHeader,
     ),
     responses(
         (

@@ -18,7 +18,7 @@ use frontalis_proto::v1;
 use futures::{Stream, StreamExt as _, stream};
 use serde::Deserialize;
 use tonic::{Code, Status};
-use utoipa::{IntoParams, openapi::Schema};
+use utoipa::IntoParams;
 
 use super::super::{
     Doors,
@@ -46,11 +46,11 @@ const MEDIA_TYPES: [&str; 3] = [
 pub(in crate::service::http) struct ImportQuery {
     /// In place of the package's own name for people.
     #[serde(default)]
-    #[param(required = false, max_length = 128)]
+    #[param(required = false, schema_with = openapi::display_name)]
     display_name: String,
     /// The package must be in this unit; a GLB is in meters.
     #[serde(default)]
-    #[param(required = false, schema_with = length_unit)]
+    #[param(required = false, schema_with = openapi::length_unit)]
     unit: v1::LengthUnit,
     /// Accept a rank-deficient basis and report it.
     #[serde(default)]
@@ -118,10 +118,6 @@ pub(in crate::service::http) async fn import(
     }
     let imported = import.run(chunks, |_progress| {}).await?;
     Ok(Json(imported).into_response())
-}
-
-fn length_unit() -> Schema {
-    openapi::enum_names("LengthUnit")
 }
 
 fn check_media_type(headers: &HeaderMap) -> Result<(), Problem> {

@@ -1,17 +1,28 @@
 //! The body of a request as the message that is due.
+//!
+//! Few bodies may be large at once, so that what all calls hold stays within the worst case (CONTRACTS O-2).
+
+use std::sync::Arc;
 
 use axum::{
     body::Body,
     extract::{FromRequest, Request},
     http::{HeaderMap, HeaderValue, StatusCode, header},
 };
-use bytes::Bytes;
-use http_body_util::{BodyExt as _, LengthLimitError, Limited};
+use bytes::BytesMut;
+use http_body_util::BodyExt as _;
 use serde::de::DeserializeOwned;
+use tokio::sync::{Semaphore, SemaphorePermit};
 use tonic::{Code, Status};
 
 use super::{Problem, json};
-use crate::{config::SMALL_MESSAGE_BYTES, service::grpc::status::refuse};
+use crate::{
+    config::{LARGE_BODIES, LARGE_BODY_BYTES, SMALL_MESSAGE_BYTES},
+    service::{
+        grpc::{refusal::limit, status::refuse},
+        http::Doors,
+    },
+};
 
 /// The message of the body.
 pub(in crate::service::http) struct Message<T>(pub T);
@@ -26,17 +37,27 @@ pub(in crate::service::http) trait PathFields:
     const MAY_BE_ABSENT: bool;
 }
 
-impl<S: Send + Sync, T: PathFields> FromRequest<S> for Message<T> {
+/// How many bodies may be large at once; cheap to clone.
+#[derive(Clone, Debug)]
+pub struct LargeBodies(Arc<Semaphore>);
+
+impl Default for LargeBodies {
+    fn default() -> Self {
+        Self(Arc::new(Semaphore::new(LARGE_BODIES)))
+    }
+}
+
+impl<T: PathFields> FromRequest<Doors> for Message<T> {
     type Rejection = Problem;
 
-    async fn from_request(request: Request, _state: &S) -> Result<Self, Problem> {
+    async fn from_request(request: Request, doors: &Doors) -> Result<Self, Problem> {
         let (parts, body) = request.into_parts();
         check_encoding(&parts.headers)?;
         let kind = media_type(&parts.headers);
         if kind.as_deref().is_some_and(|it| it != "application/json") {
             return Err(not_json());
         }
-        let bytes = read(body).await?;
+        let (bytes, _place) = doors.large_bodies.read(body).await?;
         if bytes.is_empty() && T::MAY_BE_ABSENT {
             return Ok(Self(T::default()));
         }
@@ -70,23 +91,42 @@ pub(in crate::service::http) fn check_encoding(headers: &HeaderMap) -> Result<()
     Err(refuse(Code::Unimplemented, "COMPRESSION", message))
 }
 
-async fn read(body: Body) -> Result<Bytes, Problem> {
-    let read = Limited::new(body, SMALL_MESSAGE_BYTES).collect().await;
-    let read = read.map_err(|error| {
-        if error.is::<LengthLimitError>() {
-            return too_large();
+impl LargeBodies {
+    /// The body, and the place that it takes while it is held.
+    async fn read(
+        &self,
+        mut body: Body,
+    ) -> Result<(BytesMut, Option<SemaphorePermit<'_>>), Problem> {
+        let mut bytes = BytesMut::new();
+        let mut place = None;
+        while let Some(frame) = body.frame().await {
+            let Ok(data) = frame.map_err(|_cut| cut())?.into_data() else {
+                continue;
+            };
+            let n_bytes = bytes.len() + data.len();
+            if n_bytes > LARGE_BODY_BYTES {
+                return Err(too_large());
+            }
+            if n_bytes > SMALL_MESSAGE_BYTES && place.is_none() {
+                let full = |_| limit("BODIES", "large bodies", LARGE_BODIES);
+                place = Some(self.0.try_acquire().map_err(full)?);
+            }
+            bytes.extend_from_slice(&data);
         }
-        let detail = "the body ended before it was complete";
-        Problem::new(StatusCode::BAD_REQUEST, "BODY", detail)
-    })?;
-    Ok(read.to_bytes())
+        Ok((bytes, place))
+    }
+}
+
+fn cut() -> Problem {
+    let detail = "the body ended before it was complete";
+    Problem::new(StatusCode::BAD_REQUEST, "BODY", detail)
 }
 
 fn too_large() -> Problem {
-    let detail = format!("the body is limited to {SMALL_MESSAGE_BYTES} bytes");
+    let detail = format!("the body is limited to {LARGE_BODY_BYTES} bytes");
     Problem::new(StatusCode::PAYLOAD_TOO_LARGE, "BODY_SIZE", &detail)
         .with("limit", "body")
-        .with("value", &SMALL_MESSAGE_BYTES.to_string())
+        .with("value", &LARGE_BODY_BYTES.to_string())
 }
 
 fn not_json() -> Problem {

@@ -7,7 +7,7 @@ use frontalis_proto::v1;
 use serde::Deserialize;
 use utoipa::IntoParams;
 
-use super::super::problem::Problem;
+use super::super::{openapi, problem::Problem};
 
 /// Header of a browser that comes back.
 const LAST_EVENT_ID: &str = "last-event-id";
@@ -18,7 +18,7 @@ const LAST_EVENT_ID: &str = "last-event-id";
 #[into_params(parameter_in = Query)]
 pub(in super::super) struct EventsQuery {
     /// A name for status and logs; empty: the peer's address.
-    #[param(required = false, max_length = 128)]
+    #[param(required = false, schema_with = openapi::display_name)]
     subscriber: String,
     /// `latest`, which is the default, or `every_frame`.
     #[param(required = false, value_type = String, pattern = "^((DELIVERY_)?(LATEST|EVERY_FRAME)|latest|every_frame|)$", example = "every_frame")]
@@ -33,19 +33,19 @@ pub(in super::super) struct EventsQuery {
     #[param(required = false, maximum = 18_446_744_073_709_551_615_u64)]
     run: u64,
     /// `latest`: samples a second at most; 0: 30.
-    #[param(required = false, minimum = 0)]
+    #[param(required = false, minimum = 0, maximum = 1_000_000)]
     max_rate_hz: f32,
     /// `muscles`, which is the default; this version has no other.
-    #[param(required = false, value_type = String, pattern = "^((CONTROL_SPACE_)?(MUSCLES|FACS|ARKIT)|muscles|facs|arkit|)$", example = "muscles")]
+    #[param(required = false, value_type = String, pattern = "^((CONTROL_SPACE_)?MUSCLES|muscles|)$", example = "muscles")]
     control_space: Word,
     /// Fill `standardErrors`; this version cannot.
-    #[param(required = false)]
+    #[param(required = false, schema_with = openapi::not_yet)]
     with_uncertainty: bool,
     /// Fill `observedCm`, `reproducedCm` and `observedMarkers`.
     #[param(required = false)]
     with_markers: bool,
     /// The stream ends after so many samples; absent: with the session.
-    #[param(maximum = 18_446_744_073_709_551_615_u64)]
+    #[param(required = false, value_type = u64, maximum = 18_446_744_073_709_551_615_u64)]
     pub(super) limit: Option<u64>,
 }
 
@@ -61,7 +61,7 @@ pub(super) struct LastEventId {
         pattern = "^[0-9]{1,19}:[0-9]{1,19}(:end)?$",
         example = "1:120"
     )]
-    last_event_id: Option<String>,
+    last_event_id: String,
 }
 
 /// The name of an enum's value, with or without the enum's own name in front.

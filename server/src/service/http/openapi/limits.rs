@@ -10,10 +10,12 @@ const ACTOR: &str = "^actors/[a-z0-9][a-z0-9_-]{0,62}$";
 /// An id, or none.
 const OPTIONAL_ID: &str = "^([a-z0-9][a-z0-9_-]{0,62})?$";
 /// Nothing that moves a cursor or turns text around.
-const DISPLAY_NAME: &str = concat!(
+pub(super) const DISPLAY_NAME: &str = concat!(
     r"^[^\u0000-\u001f\u007f-\u009f\u061c\u200e\u200f\u2028\u2029",
     r"\u202a-\u202e\u2066-\u2069]*$"
 );
+/// In code points.
+pub(super) const DISPLAY_NAME_LENGTH: usize = 128;
 /// 10 ms to 1 h.
 const DURATION: &str = concat!(
     r"^(0\.(0[1-9][0-9]{0,7}|[1-9][0-9]{0,8})",
@@ -60,7 +62,9 @@ pub(super) fn of(message: &str, field: &str) -> Option<Value> {
         ("CreateSessionRequest", "actor") => json!({ "pattern": ACTOR }),
         // This version takes no images.
         ("CreateSessionRequest", "kind") => json!({ "enum": ["CAPTURE_KIND_MARKERS", 1] }),
-        ("CreateSessionRequest", "display_name") => display_name(),
+        ("CreateSessionRequest", "display_name") => {
+            json!({ "maxLength": DISPLAY_NAME_LENGTH, "pattern": DISPLAY_NAME })
+        }
         ("UpdateSessionRequest", "update_mask") => json!({ "pattern": MASK }),
         ("SessionSettings", "neutral_frames") => json!({
             "minimum": 1,
@@ -78,8 +82,4 @@ pub(super) fn of(message: &str, field: &str) -> Option<Value> {
         _ => return None,
     };
     Some(limit)
-}
-
-pub(super) fn display_name() -> Value {
-    json!({ "maxLength": 128, "pattern": DISPLAY_NAME })
 }

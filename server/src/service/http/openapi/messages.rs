@@ -9,7 +9,6 @@ use prost_types::{
     source_code_info::Location,
 };
 use serde_json::Value;
-use utoipa::openapi::{ObjectBuilder, Schema, Type};
 
 use super::schema::{self, bare};
 
@@ -103,23 +102,12 @@ impl Messages {
     }
 }
 
-/// The names of an enum's values, for queries.
-pub fn enum_names(name: &str) -> Schema {
+/// The names of an enum's values.
+pub(super) fn names_of(name: &str) -> Vec<String> {
     let all = Messages::of_the_protocol();
-    let values = all.enums.get(name).map(|it| it.descriptor.value.clone());
-    let names = values.unwrap_or_default();
-    ObjectBuilder::new()
-        .schema_type(Type::String)
-        .enum_values(Some(names.iter().map(|it| it.name().to_owned())))
-        .into()
-}
-
-/// A switch that this version cannot put on.
-pub fn not_yet() -> Schema {
-    ObjectBuilder::new()
-        .schema_type(Type::Boolean)
-        .enum_values(Some([false]))
-        .into()
+    let values = all.enums.get(name).map(|it| it.descriptor.value.iter());
+    let names = values.into_iter().flatten();
+    names.map(|it| it.name().to_owned()).collect()
 }
 
 /// What a file says of the definition at `path`, and of its members.

@@ -8,6 +8,7 @@ pub(super) fn schemas() -> Map<String, Value> {
         ("Problem", problem()),
         ("Package", package()),
         ("ImportActorLine", import_line()),
+        ("CurveEvent", curve_event()),
     ]
     .into_iter()
     .map(|(name, schema)| (name.to_owned(), schema))
@@ -87,5 +88,37 @@ fn import_line() -> Value {
                 "properties": { "error": { "$ref": "#/components/schemas/Problem" } },
             },
         ],
+    })
+}
+
+fn curve_event() -> Value {
+    json!({
+        "type": "object",
+        "description": "One event, as its fields are sent.",
+        "required": ["data"],
+        "additionalProperties": false,
+        "properties": {
+            "id": {
+                "type": "string",
+                "pattern": "^[0-9]+:[0-9]+(:end)?$",
+                "description": "`run:sequence` of the last sample in it.",
+            },
+            "event": {
+                "type": "string",
+                "enum": ["message", "problem"],
+                "description": "`problem`: why the stream ends; `data` is a Problem. Else it is a SubscribeResponse.",
+            },
+            "retry": { "type": "integer", "description": "When to come back, milliseconds." },
+            "data": {
+                "type": "string",
+                "contentMediaType": "application/json",
+                "contentSchema": {
+                    "oneOf": [
+                        { "$ref": "#/components/schemas/SubscribeResponse" },
+                        { "$ref": "#/components/schemas/Problem" },
+                    ],
+                },
+            },
+        },
     })
 }

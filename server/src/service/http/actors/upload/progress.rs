@@ -1,6 +1,10 @@
 //! How far an import is, as lines of JSON; the import runs while the lines are read, without a task of its own.
 
-use std::{convert::Infallible, pin::Pin};
+use std::{
+    convert::Infallible,
+    pin::Pin,
+    sync::atomic::{AtomicUsize, Ordering},
+};
 
 use axum::{
     body::Body,
@@ -11,7 +15,7 @@ use bytes::Bytes;
 use frontalis_proto::v1;
 use futures::{Stream, stream};
 use serde_json::{Value, json};
-use tokio::sync::watch;
+use tokio::sync::mpsc;
 use tonic::Status;
 
 use crate::service::{
@@ -21,6 +25,9 @@ use crate::service::{
 
 /// A line says so much more than the one before, unless the stage is another.
 const STEP_BYTES: usize = 1 << 20;
+
+/// More lines than a package of the largest size has.
+const MAX_LINES: usize = 128;
 
 type Running = Pin<Box<dyn Future<Output = Result<v1::ImportActorResponse, Status>> + Send>>;
 
@@ -34,11 +41,16 @@ pub(super) fn lines<S>(
 where
     S: Stream<Item = Result<Bytes, Status>> + Send + Unpin + 'static,
 {
-    let (said, heard) = watch::channel(Progress::default());
-    let running = import.run(chunks, move |now| tell(&said, now));
+    let (said, heard) = mpsc::channel(MAX_LINES);
+    let steps = Steps {
+        last: AtomicUsize::new(0),
+        said,
+    };
+    let running = import.run(chunks, move |now| steps.tell(now));
     let state = Lines {
         running: Some(Box::pin(running)),
         heard,
+        last: None,
         total_bytes,
         instance,
     };
@@ -50,37 +62,47 @@ where
     ([(header::CONTENT_TYPE, kind)], Body::from_stream(lines)).into_response()
 }
 
-fn tell(said: &watch::Sender<Progress>, now: Progress) {
-    said.send_if_modified(|last| {
-        let step = |it: &Progress| (it.stage, it.received_bytes / STEP_BYTES);
-        let news = step(last) != step(&now);
-        *last = now;
-        news
-    });
+/// Of all that an import says, what makes a line.
+struct Steps {
+    last: AtomicUsize,
+    said: mpsc::Sender<Progress>,
+}
+
+impl Steps {
+    fn tell(&self, now: Progress) {
+        let step = now.received_bytes / STEP_BYTES;
+        let is_news = self.last.swap(step, Ordering::Relaxed) != step;
+        let is_line = is_news || now.stage != ImportStage::Receiving;
+        if is_line && self.said.try_send(now).is_err() {
+            tracing::debug!("a line of progress is left out");
+        }
+    }
 }
 
 struct Lines {
-    /// None: the last line was said.
     running: Option<Running>,
-    heard: watch::Receiver<Progress>,
+    heard: mpsc::Receiver<Progress>,
+    /// What is said when nothing else is left to say.
+    last: Option<Value>,
     total_bytes: Option<u64>,
     instance: String,
 }
 
 impl Lines {
     async fn next(&mut self) -> Option<Value> {
-        let running = self.running.as_mut()?;
-        tokio::select! {
-            // What was said before the end comes before it.
-            biased;
-            Ok(()) = self.heard.changed() => {
-                let now = *self.heard.borrow_and_update();
-                Some(self.progress(now))
+        if let Some(running) = self.running.as_mut() {
+            tokio::select! {
+                biased;
+                Some(now) = self.heard.recv() => return Some(self.progress(now)),
+                result = running => {
+                    self.running = None;
+                    self.last = Some(self.last(result));
+                }
             }
-            result = running => {
-                self.running = None;
-                Some(self.last(result))
-            }
+        }
+        match self.heard.try_recv() {
+            Ok(now) => Some(self.progress(now)),
+            Err(_) => self.last.take(),
         }
     }
 
