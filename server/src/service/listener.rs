@@ -7,6 +7,7 @@
 mod admission;
 mod connection;
 mod frames;
+mod http1_framing;
 mod inbound;
 mod lingering;
 mod liveness;

@@ -2,9 +2,10 @@
 //!
 //! The libraries' timers start with the first request or after the HTTP/2 preface; a peer that sends neither, or half a
 //! preface, would stay for ever (CONTRACTS S-9, BAD_INPUT F1). Of HTTP/2 the control frames are counted ([`frames`]);
-//! above their budget nothing more is read (F8).
+//! above their budget nothing more is read (F8). Of HTTP/1 the ends of requests must be clear ([`http1_framing`], F13).
 //!
 //! [`frames`]: super::frames
+//! [`http1_framing`]: super::http1_framing
 
 use std::{
     io,
@@ -19,9 +20,14 @@ use tokio::{
     time::{Instant, Sleep},
 };
 
-use super::frames::{ControlFrame, FrameMeter};
+use super::{
+    frames::{ControlFrame, FrameMeter},
+    http1_framing::Http1Framing,
+};
 
 const PREFACE: &[u8; 24] = b"PRI * HTTP/2.0\r\n\r\nSM\r\n\r\n";
+
+const SWITCHING: &[u8] = b"HTTP/1.1 101";
 
 /// Reads fail after the deadline, unless it is clear by then which protocol is spoken.
 pub(super) struct Inbound<S> {
@@ -39,7 +45,7 @@ enum Speech {
         n_matched: usize,
     },
     /// HTTP/1, which has a deadline of its own for headers, and what it is upgraded to.
-    Http1,
+    Http1(Http1Framing),
     Http2(FrameMeter),
 }
 
@@ -59,7 +65,16 @@ impl<S> Inbound<S> {
         (inbound, exceeded)
     }
 
-    fn observe(&mut self, bytes: &[u8]) {
+    /// With this answer HTTP/1 ends and a WebSocket begins; an upgrade is the last request of its connection.
+    fn observe_answer(&mut self, bytes: &[u8]) {
+        if let Speech::Http1(framing) = &mut self.speech
+            && bytes.starts_with(SWITCHING)
+        {
+            framing.upgraded();
+        }
+    }
+
+    fn observe(&mut self, bytes: &mut [u8]) {
         let rest = match &mut self.speech {
             Speech::Unclear { n_matched, .. } => {
                 // It is clear with the whole preface, or with the first byte that is none of it.
@@ -67,18 +82,29 @@ impl<S> Inbound<S> {
                 let n = bytes.len().min(expected.len());
                 *n_matched += n;
                 if bytes[..n] != expected[..n] {
-                    self.speech = Speech::Http1;
+                    let mut framing = Http1Framing::new();
+                    // What came before agrees with the preface.
+                    framing.follow(&mut PREFACE[..*n_matched - n].to_vec());
+                    self.speech = Speech::Http1(framing);
+                    bytes
                 } else if *n_matched == PREFACE.len() {
                     self.speech = Speech::Http2(FrameMeter::new(Instant::now()));
+                    &mut bytes[n..]
+                } else {
+                    return;
                 }
-                &bytes[n..]
             }
-            Speech::Http1 | Speech::Http2(_) => bytes,
+            Speech::Http1(_) | Speech::Http2(_) => bytes,
         };
-        let Speech::Http2(meter) = &mut self.speech else {
-            return;
+        let exceeded = match &mut self.speech {
+            Speech::Http2(meter) => meter.observe(rest, Instant::now()),
+            Speech::Http1(framing) => {
+                framing.follow(rest);
+                None
+            }
+            Speech::Unclear { .. } => None,
         };
-        let Some(kind) = meter.observe(rest, Instant::now()) else {
+        let Some(kind) = exceeded else {
             return;
         };
         if let Some(excess) = self.excess.take() {
@@ -102,7 +128,7 @@ impl<S: AsyncRead + Unpin> AsyncRead for Inbound<S> {
         let before = buf.filled().len();
         let read = Pin::new(&mut this.stream).poll_read(cx, buf);
         if read.is_ready() {
-            this.observe(&buf.filled()[before..]);
+            this.observe(&mut buf.filled_mut()[before..]);
             return read;
         }
         match &mut this.speech {
@@ -110,7 +136,7 @@ impl<S: AsyncRead + Unpin> AsyncRead for Inbound<S> {
                 .as_mut()
                 .poll(cx)
                 .map(|()| Err(io::ErrorKind::TimedOut.into())),
-            Speech::Http1 | Speech::Http2(_) => Poll::Pending,
+            Speech::Http1(_) | Speech::Http2(_) => Poll::Pending,
         }
     }
 }
@@ -121,7 +147,9 @@ impl<S: AsyncWrite + Unpin> AsyncWrite for Inbound<S> {
         cx: &mut Context<'_>,
         buf: &[u8],
     ) -> Poll<io::Result<usize>> {
-        Pin::new(&mut self.get_mut().stream).poll_write(cx, buf)
+        let this = self.get_mut();
+        this.observe_answer(buf);
+        Pin::new(&mut this.stream).poll_write(cx, buf)
     }
 
     fn poll_flush(self: Pin<&mut Self>, cx: &mut Context<'_>) -> Poll<io::Result<()>> {
@@ -141,7 +169,9 @@ impl<S: AsyncWrite + Unpin> AsyncWrite for Inbound<S> {
         cx: &mut Context<'_>,
         bufs: &[io::IoSlice<'_>],
     ) -> Poll<io::Result<usize>> {
-        Pin::new(&mut self.get_mut().stream).poll_write_vectored(cx, bufs)
+        let this = self.get_mut();
+        this.observe_answer(bufs.first().map_or(&[], |it| it));
+        Pin::new(&mut this.stream).poll_write_vectored(cx, bufs)
     }
 }
 
