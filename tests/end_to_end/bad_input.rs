@@ -5,12 +5,16 @@
 mod access;
 mod actor_packages;
 mod cancel;
+mod connections;
+mod http1;
+mod http2;
 mod http_bodies;
 mod leases;
 mod marker_frames;
 mod memory;
 mod messages;
 mod names;
+mod origin;
 mod packages_glb;
 mod positions;
 mod protocol_order;

@@ -38,7 +38,7 @@ pub async fn http_get(server: &TestServer, path: &str) -> HttpAnswer {
     http_send(server, &Method::GET, path, &[], b"").await
 }
 
-/// Any request on a connection of its own, over HTTP/1.1.
+/// Any request on a connection of its own, over HTTP/1.1; the host is the address unless the headers name another.
 pub async fn http_send(
     server: &TestServer,
     method: &Method,
@@ -50,10 +50,10 @@ pub async fn http_send(
     let (mut sender, connection) = http1::handshake(TokioIo::new(stream)).await.unwrap();
     // The server may close first, when it refuses a body that it did not read.
     let connection = tokio::spawn(async move { drop(connection.await) });
-    let mut request = Request::builder()
-        .method(method)
-        .uri(path)
-        .header("host", server.address().to_string());
+    let mut request = Request::builder().method(method).uri(path);
+    if headers.iter().all(|(name, _)| *name != "host") {
+        request = request.header("host", server.address().to_string());
+    }
     for (name, value) in headers {
         request = request.header(*name, *value);
     }

@@ -9,6 +9,7 @@
 )]
 
 mod control_session;
+mod cost;
 mod doors;
 mod eventually;
 mod http;
@@ -21,14 +22,17 @@ mod programs;
 mod protection;
 mod publisher;
 mod raw_grpc;
+pub mod raw_http2;
 mod real_time;
 mod server;
 mod server_program;
 mod shared_data;
 mod stall;
 mod subscriber;
+mod vanishing;
 
 pub use control_session::{ControlReport, ControlSession};
+pub use cost::Cost;
 pub use doors::{
     Closed, DoorCosts, Event, EventStream, GrpcWeb, LinePublisher, Received, SocketFrame,
     SocketFrames, StalledDoors, WebSocket,
@@ -48,3 +52,4 @@ pub use server_program::ServerProgram;
 pub use shared_data::data_dir;
 pub use stall::{StallProfile, StallReport};
 pub use subscriber::{Heard, Subscriber, every_frame, latest};
+pub use vanishing::Vanishing;

@@ -6,7 +6,7 @@ use frontalis_proto::v1::{
 };
 use tokio::sync::mpsc;
 use tokio_stream::wrappers::ReceiverStream;
-use tonic::{Status, Streaming};
+use tonic::{Status, Streaming, transport::Channel};
 
 use crate::TestServer;
 
@@ -50,13 +50,22 @@ impl Publisher {
     ///
     /// When the server refuses the start.
     pub async fn open(server: &TestServer, start: PublishStart) -> Result<Self, Status> {
+        Self::open_on(server.channel().await, start).await
+    }
+
+    /// The same on a connection that is there.
+    ///
+    /// # Errors
+    ///
+    /// When the server refuses the start.
+    pub async fn open_on(channel: Channel, start: PublishStart) -> Result<Self, Status> {
         let (outgoing, requests) = mpsc::channel(OUTGOING_MESSAGES);
         let first = PublishMarkersRequest {
             start: Some(start),
             ..PublishMarkersRequest::default()
         };
         outgoing.send(first).await.unwrap();
-        let mut incoming = CaptureServiceClient::new(server.channel().await)
+        let mut incoming = CaptureServiceClient::new(channel)
             .publish_markers(ReceiverStream::new(requests))
             .await?
             .into_inner();

@@ -106,7 +106,12 @@ impl Ended {
 
     /// The error code of each stream that was reset.
     pub fn resets(&self) -> Vec<(u32, u32)> {
-        let reset = |it: &Frame| (it.stream, u32::from_be_bytes(it.content[..4].try_into().unwrap()));
+        let reset = |it: &Frame| {
+            (
+                it.stream,
+                u32::from_be_bytes(it.content[..4].try_into().unwrap()),
+            )
+        };
         self.of(kind::RST_STREAM).map(reset).collect()
     }
 
@@ -162,6 +167,19 @@ impl RawHttp2 {
         n_sent
     }
 
+    /// Floods and reads at once, until the server closes.
+    pub async fn flood_and_read(self, bytes: &[u8]) -> Ended {
+        let (mut incoming, mut outgoing) = self.stream.into_split();
+        let block = bytes.repeat(64 * 1024 / bytes.len());
+        let flood = async { while outgoing.write_all(&block).await.is_ok() {} };
+        let mut received = Vec::new();
+        let read = timeout(PATIENCE, incoming.read_to_end(&mut received));
+        // A reset is a close too.
+        let (_, read) = tokio::join!(flood, read);
+        drop(read.unwrap());
+        Self::ended(received)
+    }
+
     /// The next frame; none when the server has closed.
     pub async fn next(&mut self) -> Option<Frame> {
         loop {
@@ -169,7 +187,10 @@ impl RawHttp2 {
                 return Some(frame);
             }
             let mut buffer = [0; 16 * 1024];
-            match timeout(PATIENCE, self.stream.read(&mut buffer)).await.unwrap() {
+            match timeout(PATIENCE, self.stream.read(&mut buffer))
+                .await
+                .unwrap()
+            {
                 Ok(n) if n > 0 => self.received.extend(&buffer[..n]),
                 // A reset is a close too.
                 _ => return None,
@@ -191,18 +212,29 @@ impl RawHttp2 {
     }
 
     fn take_frame(&mut self) -> Option<Frame> {
-        let [a, b, c, kind, flags, s0, s1, s2, s3] = *self.received.first_chunk::<9>()?;
-        let length = u32::from_be_bytes([0, a, b, c]) as usize;
-        if self.received.len() < 9 + length {
-            return None;
-        }
-        let content = self.received[9..9 + length].to_vec();
-        self.received.drain(..9 + length);
-        Some(Frame {
-            kind,
-            flags,
-            stream: u32::from_be_bytes([s0, s1, s2, s3]),
-            content,
-        })
+        take_frame(&mut self.received)
     }
+
+    fn ended(mut received: Vec<u8>) -> Ended {
+        Ended {
+            frames: std::iter::from_fn(|| take_frame(&mut received)).collect(),
+            after: Duration::ZERO,
+        }
+    }
+}
+
+fn take_frame(received: &mut Vec<u8>) -> Option<Frame> {
+    let [a, b, c, kind, flags, s0, s1, s2, s3] = *received.first_chunk::<9>()?;
+    let length = u32::from_be_bytes([0, a, b, c]) as usize;
+    if received.len() < 9 + length {
+        return None;
+    }
+    let content = received[9..9 + length].to_vec();
+    received.drain(..9 + length);
+    Some(Frame {
+        kind,
+        flags,
+        stream: u32::from_be_bytes([s0, s1, s2, s3]),
+        content,
+    })
 }

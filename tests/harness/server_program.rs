@@ -66,6 +66,11 @@ impl ServerProgram {
         std::fs::write(file, "5").unwrap();
     }
 
+    /// Its process.
+    pub fn id(&self) -> u32 {
+        self.child.id()
+    }
+
     /// Processor time of all its threads so far, nanoseconds.
     pub fn cpu_nanos(&self) -> u64 {
         let folder = format!("/proc/{}/task", self.child.id());

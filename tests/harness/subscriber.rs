@@ -8,7 +8,7 @@ use frontalis_proto::v1::{
 };
 use tokio::sync::mpsc;
 use tokio_stream::wrappers::ReceiverStream;
-use tonic::{Status, Streaming};
+use tonic::{Status, Streaming, transport::Channel};
 
 use crate::TestServer;
 
@@ -63,13 +63,22 @@ impl Subscriber {
     ///
     /// When the server refuses the start.
     pub async fn open(server: &TestServer, start: SubscribeStart) -> Result<Self, Status> {
+        Self::open_on(server.channel().await, start).await
+    }
+
+    /// The same on a connection that is there.
+    ///
+    /// # Errors
+    ///
+    /// When the server refuses the start.
+    pub async fn open_on(channel: Channel, start: SubscribeStart) -> Result<Self, Status> {
         let (requests, outgoing) = mpsc::channel(64);
         let first = SubscribeRequest {
             start: Some(start),
             credits: 0,
         };
         requests.send(first).await.unwrap();
-        let mut incoming = CurveServiceClient::new(server.channel().await)
+        let mut incoming = CurveServiceClient::new(channel)
             .subscribe(ReceiverStream::new(outgoing))
             .await?
             .into_inner();

@@ -285,7 +285,12 @@ impl Subscription {
     ) -> Result<(), LostRange> {
         match &mut self.reading {
             Reading::Every(cursor) => {
-                shared.read_batch(cursor, self.max_entries, &mut update.samples, &mut update.gaps)?;
+                shared.read_batch(
+                    cursor,
+                    self.max_entries,
+                    &mut update.samples,
+                    &mut update.gaps,
+                )?;
                 shared.window.reader_at(cursor);
                 let served_through = cursor.sequence - 1;
                 self.tally

@@ -46,7 +46,11 @@ const SAMPLE_BYTES: usize = 1_024;
 /// Samples of that many muscles and markers that go into one response.
 pub fn samples_in_a_response(n_muscles: usize, n_markers: usize, detail: SampleDetail) -> usize {
     // Six coordinates and an index for each marker.
-    let n_of_markers = if detail.with_markers { 7 * n_markers } else { 0 };
+    let n_of_markers = if detail.with_markers {
+        7 * n_markers
+    } else {
+        0
+    };
     let n_bytes = SAMPLE_BYTES + NUMBER_BYTES * (n_muscles + n_of_markers);
     (RESPONSE_BYTES / n_bytes).max(1)
 }

@@ -1,0 +1,323 @@
+//! Rows F1 to F4 and F11: connections that do not begin, do not go on, vanish, do not read, or are too many.
+
+use std::{net::SocketAddr, time::Duration};
+
+use frontalis_proto::v1::SubscribeRequest;
+use frontalis_server::config::Config;
+use futures::{StreamExt as _, future::join_all};
+use harness::{
+    Cost, HttpAnswer, Publisher, Subscriber, TestServer, Vanishing, assert_eventually, encoded,
+    every_frame, http_get,
+    raw_http2::{PREFACE, frame, get, kind},
+};
+use hyper::Request;
+use rustix::process::{Pid, Resource, Rlimit, getrlimit, prlimit};
+use socket2::SockRef;
+use tokio::{
+    io::{AsyncReadExt as _, AsyncWriteExt as _},
+    net::TcpStream,
+    time::{Instant, timeout},
+};
+
+use super::{
+    GOOD_FRAMES, SUBJECT, Stage, beside_a_control_session_of, beside_a_control_session_with,
+};
+
+const PATIENCE: Duration = Duration::from_secs(60);
+
+const MIB: u64 = 1 << 20;
+
+/// Says something, then nothing; how long the server waits until it closes.
+async fn closed_after(address: SocketAddr, said: &[u8]) -> Duration {
+    let mut stream = TcpStream::connect(address).await.unwrap();
+    let began = Instant::now();
+    drop(stream.write_all(said).await);
+    let mut rest = Vec::new();
+    // A reset is a close too.
+    drop(
+        timeout(PATIENCE, stream.read_to_end(&mut rest))
+            .await
+            .unwrap(),
+    );
+    began.elapsed()
+}
+
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn f1_five_hundred_connections_that_do_not_begin_are_closed_in_time() {
+    let server =
+        TestServer::start_program(|config| config.transport.header_deadline_secs = 2).await;
+    beside_a_control_session_of("F1", server, async |stage| {
+        let program = stage.server.program();
+        let silent: [(&str, &[u8]); 3] = [
+            ("nothing", b""),
+            ("half the preface", &PREFACE[..12]),
+            ("half a request", b"GET / HTTP/1.1\r\nHost: lo"),
+        ];
+        for (what, said) in silent {
+            let all = join_all((0..500).map(|_| closed_after(program.address(), said)));
+            let (waits, cost) = Cost::of(program, all).await;
+            let longest = waits.iter().max().unwrap();
+            println!(
+                "G12: 500 connections that say {what}: {cost}, the last closed after {} ms",
+                longest.as_millis()
+            );
+            assert!(cost.grown_bytes <= 16 * MIB, "{cost}");
+        }
+    })
+    .await;
+}
+
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn f1_connections_of_one_peer_above_the_limit_are_closed_at_once() {
+    let change = |config: &mut Config| {
+        config.limits.connections_per_peer = 100;
+    };
+    beside_a_control_session_with("F1 limits", change, async |stage| {
+        let address = stage.server.address();
+        let mut held = Vec::new();
+        for _ in 0..100 {
+            held.push(TcpStream::connect(address).await.unwrap());
+        }
+        // The control session has some of the places.
+        let closed = join_all(held.iter_mut().map(async |it| {
+            let read = timeout(Duration::from_secs(1), it.read_u8()).await;
+            u32::from(read.is_ok())
+        }));
+        let n_closed: u32 = closed.await.iter().sum();
+        assert!(
+            (1..=20).contains(&n_closed),
+            "{n_closed} of 100 were closed"
+        );
+        drop(held);
+        let metrics = async || http_get(&stage.server, "/metrics").await;
+        assert_eventually!(stage_answers(&metrics).await);
+        let text = metrics().await;
+        let refused = "frontalis_connections_refused_total{limit=\"connections_per_peer\"}";
+        assert!(text.text().contains(refused), "{}", text.text());
+    })
+    .await;
+}
+
+async fn stage_answers(metrics: &impl AsyncFn() -> HttpAnswer) -> bool {
+    timeout(Duration::from_secs(5), metrics()).await.is_ok()
+}
+
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn f2_connections_that_fall_silent_are_closed() {
+    let change = |config: &mut Config| {
+        config.transport.keepalive_interval_secs = 1;
+        config.transport.keepalive_timeout_secs = 1;
+        config.transport.header_deadline_secs = 1;
+    };
+    beside_a_control_session_with("F2", change, async |stage| {
+        let address = stage.server.address();
+        let settings = frame(kind::SETTINGS, 0, 0, &[]);
+        let begun = [PREFACE, &settings].concat();
+        let asked = [&begun, get(1, "/healthz").as_slice()].concat();
+        let silent: [(&str, &[u8]); 3] = [
+            ("no answer to a ping", &begun),
+            ("a request, then no answer to a ping", &asked),
+            (
+                "HTTP/1 after its answer",
+                b"GET /healthz HTTP/1.1\r\nHost: localhost\r\n\r\n",
+            ),
+        ];
+        for (what, said) in silent {
+            let after = closed_after(address, said).await;
+            println!(
+                "F2: {what}: closed after {} ms, 1 s allowed for each wait",
+                after.as_millis()
+            );
+        }
+    })
+    .await;
+}
+
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn f3_peers_that_vanish_are_found_and_what_they_held_is_free() {
+    let change = |config: &mut Config| {
+        config.transport.keepalive_interval_secs = 1;
+        config.transport.keepalive_timeout_secs = 1;
+    };
+    beside_a_control_session_with("F3", change, async |stage| {
+        let address = stage.server.address();
+        let vanishing = Vanishing::default();
+        let start = stage.performance.start(SUBJECT, "camera-1");
+        let channel = vanishing.channel(address).await;
+        let mut publisher = Publisher::open_on(channel, start.clone()).await.unwrap();
+        let frames = stage.performance.frames(1..=GOOD_FRAMES);
+        publisher.send(frames).await;
+        publisher.accepted(GOOD_FRAMES).await.unwrap();
+        let channel = vanishing.channel(address).await;
+        let _over_grpc = Subscriber::open_on(channel, every_frame(SUBJECT))
+            .await
+            .unwrap();
+        let mut over_sse = vanishing.connect(address).await.unwrap();
+        let events = format!(
+            "GET /api/v1/{SUBJECT}/events?delivery=every_frame HTTP/1.1\r\nHost: localhost\r\n\r\n"
+        );
+        over_sse.write_all(events.as_bytes()).await.unwrap();
+        assert_eventually!(n_subscribers(stage, SUBJECT).await == 2);
+
+        vanishing.vanish();
+        let since = Instant::now();
+        assert_eventually!(n_subscribers(stage, SUBJECT).await == 0);
+        let found = since.elapsed();
+        let mut next = Publisher::open(&stage.server, start.clone()).await;
+        while next.is_err() && since.elapsed() < PATIENCE {
+            next = Publisher::open(&stage.server, start.clone()).await;
+        }
+        assert_eq!(next.unwrap().started.next_expected, GOOD_FRAMES + 1);
+        println!(
+            "F3: subscribers over gRPC and SSE gone after {} ms, the session free after {} ms, 2 s allowed for a ping",
+            found.as_millis(),
+            since.elapsed().as_millis()
+        );
+    })
+    .await;
+}
+
+async fn n_subscribers(stage: &Stage, session: &str) -> usize {
+    let session = stage.server.session(session).await;
+    session.status.unwrap().subscribers.len()
+}
+
+/// A subscriber whose connection answers pings, and that never makes room for more than `window` bytes.
+struct Stalled {
+    _answer: h2::RecvStream,
+    /// Open as long as the stream of its requests.
+    _requests: h2::SendStream<hyper::body::Bytes>,
+    driver: tokio::task::JoinHandle<()>,
+}
+
+impl Drop for Stalled {
+    fn drop(&mut self) {
+        self.driver.abort();
+    }
+}
+
+impl Stalled {
+    async fn open(address: SocketAddr, window: u32) -> Self {
+        let stream = TcpStream::connect(address).await.unwrap();
+        let (mut requests, connection) = h2::client::Builder::new()
+            .initial_window_size(window)
+            .handshake::<_, hyper::body::Bytes>(stream)
+            .await
+            .unwrap();
+        let driver = tokio::spawn(async move { drop(connection.await) });
+        let request = Request::post(format!(
+            "http://{address}/frontalis.v1.CurveService/Subscribe"
+        ))
+        .header("content-type", "application/grpc")
+        .header("te", "trailers")
+        .body(())
+        .unwrap();
+        let (answer, mut body) = requests.send_request(request, false).unwrap();
+        let start = SubscribeRequest {
+            start: Some(every_frame("sessions/control")),
+            credits: 0,
+        };
+        body.send_data(encoded(&start).into(), false).unwrap();
+        Self {
+            _answer: answer.await.unwrap().into_body(),
+            _requests: body,
+            driver,
+        }
+    }
+}
+
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn f4_readers_that_make_no_room_cost_little_and_hold_up_nobody() {
+    const N_STALLED: usize = 32;
+    const FRAMES: u64 = 360;
+    let server = TestServer::start_program(|_| {}).await;
+    beside_a_control_session_of("F4", server, async |stage| {
+        let program = stage.server.program();
+        for window in [0, 1] {
+            let stall = async {
+                let open = (0..N_STALLED).map(|_| Stalled::open(program.address(), window));
+                let stalled = join_all(open).await;
+                let received = async || {
+                    let session = stage.server.session("sessions/control").await;
+                    session.status.unwrap().frames_received
+                };
+                let target = received().await + FRAMES;
+                assert_eventually!(received().await >= target);
+                stalled
+            };
+            let (stalled, cost) = Cost::of(program, stall).await;
+            println!(
+                "G12: {N_STALLED} readers with a window of {window} bytes, {FRAMES} frames: {cost}"
+            );
+            // What the session keeps of its own samples is a part of it.
+            assert!(cost.grown_bytes <= 16 * MIB, "{cost}");
+            assert_eq!(
+                n_subscribers(stage, "sessions/control").await,
+                N_STALLED + 4
+            );
+            drop(stalled);
+            assert_eventually!(n_subscribers(stage, "sessions/control").await == 4);
+        }
+    })
+    .await;
+}
+
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn f11_ten_thousand_connects_disturb_nobody() {
+    let server = TestServer::start_program(|_| {}).await;
+    beside_a_control_session_of("F11 connects", server, async |stage| {
+        let program = stage.server.program();
+        let storm = async {
+            let began = Instant::now();
+            let connects = futures::stream::iter(0..10_000).for_each_concurrent(64, async |_| {
+                let stream = TcpStream::connect(program.address()).await.unwrap();
+                // Ends with a reset, so that no port waits.
+                SockRef::from(&stream)
+                    .set_linger(Some(Duration::ZERO))
+                    .unwrap();
+            });
+            connects.await;
+            began.elapsed()
+        };
+        let (took, cost) = Cost::of(program, storm).await;
+        println!("G12: 10,000 connects in {} ms: {cost}", took.as_millis());
+        assert!(cost.grown_bytes <= 16 * MIB, "{cost}");
+        assert_eq!(http_get(&stage.server, "/healthz").await.text(), "ok\n");
+    })
+    .await;
+}
+
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn f11_a_server_without_file_descriptors_recovers_by_itself() {
+    let server = TestServer::start_program(|_| {}).await;
+    beside_a_control_session_of("F11 descriptors", server, async |stage| {
+        let program = stage.server.program();
+        let id = Pid::from_raw(i32::try_from(program.id()).unwrap());
+        let few = Rlimit {
+            current: Some(program.n_open_files() as u64 + 8),
+            ..getrlimit(Resource::Nofile)
+        };
+        prlimit(id, Resource::Nofile, few).unwrap();
+        let mut held = Vec::new();
+        for _ in 0..64 {
+            held.push(TcpStream::connect(program.address()).await.unwrap());
+        }
+        // Nothing can be accepted now; what is open goes on, which the control session shows.
+        let waiting = timeout(Duration::from_secs(3), http_get(&stage.server, "/healthz"));
+        assert!(
+            waiting.await.is_err(),
+            "a connection was accepted without a descriptor"
+        );
+        drop(held);
+        let answer = timeout(PATIENCE, http_get(&stage.server, "/metrics"));
+        let metrics = answer.await.unwrap();
+        let failures = metrics
+            .text()
+            .lines()
+            .find_map(|it| it.strip_prefix("frontalis_accept_failures_total "));
+        let n: u64 = failures.unwrap().parse().unwrap();
+        println!("F11: accepting failed {n} times, then went on");
+        assert!(n >= 1);
+    })
+    .await;
+}
