@@ -20,6 +20,7 @@ mod positions;
 mod protocol_order;
 mod protocols;
 mod resources;
+mod tls;
 mod websocket;
 
 use frontalis_server::config::Config;

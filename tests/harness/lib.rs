@@ -29,6 +29,7 @@ mod server_program;
 mod shared_data;
 mod stall;
 mod subscriber;
+mod tls;
 mod vanishing;
 
 pub use control_session::{ControlReport, ControlSession};
@@ -52,4 +53,5 @@ pub use server_program::ServerProgram;
 pub use shared_data::data_dir;
 pub use stall::{StallProfile, StallReport};
 pub use subscriber::{Heard, Subscriber, every_frame, latest};
+pub use tls::{ClientCert, TestAuthority, TestTls};
 pub use vanishing::Vanishing;

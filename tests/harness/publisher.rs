@@ -6,9 +6,9 @@ use frontalis_proto::v1::{
 };
 use tokio::sync::mpsc;
 use tokio_stream::wrappers::ReceiverStream;
-use tonic::{Status, Streaming, transport::Channel};
+use tonic::{Status, Streaming};
 
-use crate::TestServer;
+use crate::{TestServer, server::TestChannel};
 
 /// Messages that may wait for the connection.
 const OUTGOING_MESSAGES: usize = 64;
@@ -58,7 +58,7 @@ impl Publisher {
     /// # Errors
     ///
     /// When the server refuses the start.
-    pub async fn open_on(channel: Channel, start: PublishStart) -> Result<Self, Status> {
+    pub async fn open_on(channel: TestChannel, start: PublishStart) -> Result<Self, Status> {
         let (outgoing, requests) = mpsc::channel(OUTGOING_MESSAGES);
         let first = PublishMarkersRequest {
             start: Some(start),

@@ -14,6 +14,9 @@ pub const PREFACE: &[u8] = b"PRI * HTTP/2.0\r\n\r\nSM\r\n\r\n";
 /// No test waits longer for the end of a connection.
 const PATIENCE: Duration = Duration::from_secs(60);
 
+/// What is read at once.
+const READ_BYTES: usize = 16 * 1024;
+
 /// Types of frames.
 #[expect(missing_docs, reason = "the names are those of the standard")]
 pub mod kind {
@@ -175,7 +178,7 @@ impl RawHttp2 {
         let mut received = Vec::new();
         let read = timeout(PATIENCE, incoming.read_to_end(&mut received));
         // A reset is a close too.
-        let (_, read) = tokio::join!(flood, read);
+        let ((), read) = tokio::join!(flood, read);
         drop(read.unwrap());
         Self::ended(received)
     }
@@ -186,12 +189,10 @@ impl RawHttp2 {
             if let Some(frame) = self.take_frame() {
                 return Some(frame);
             }
-            let mut buffer = [0; 16 * 1024];
-            match timeout(PATIENCE, self.stream.read(&mut buffer))
-                .await
-                .unwrap()
-            {
-                Ok(n) if n > 0 => self.received.extend(&buffer[..n]),
+            self.received.reserve(READ_BYTES);
+            let read = self.stream.read_buf(&mut self.received);
+            match timeout(PATIENCE, read).await.unwrap() {
+                Ok(n) if n > 0 => {}
                 // A reset is a close too.
                 _ => return None,
             }

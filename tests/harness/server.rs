@@ -20,6 +20,7 @@ use tonic::{
 use crate::{
     keys::{Bearer, Keys},
     server_program::ServerProgram,
+    tls::TestTls,
 };
 
 /// Size of an import's chunks.
@@ -34,6 +35,7 @@ pub struct TestServer {
     folder: TempDir,
     running: Running,
     keys: Option<Keys>,
+    tls: Option<TestTls>,
 }
 
 /// In this process, or a program of its own.
@@ -66,6 +68,7 @@ impl TestServer {
             folder,
             running,
             keys: None,
+            tls: None,
         }
     }
 
@@ -141,6 +144,7 @@ impl TestServer {
             folder,
             running: Running::Program(Box::new(started.await.unwrap())),
             keys: None,
+            tls: None,
         }
     }
 
@@ -195,7 +199,7 @@ impl TestServer {
     /// Drains the server and starts another on the same folder and the same port.
     pub async fn restart(mut self) -> Self {
         let (address, mut config) = (self.address(), self.config.clone());
-        let keys = self.keys.take();
+        let (keys, tls) = (self.keys.take(), self.tls.take());
         let folder = self.stop().await;
         config.listen = address;
         let running = spawn(&config).await;
@@ -204,6 +208,7 @@ impl TestServer {
             folder,
             running,
             keys,
+            tls,
         }
     }
 
@@ -225,7 +230,8 @@ impl TestServer {
 
     /// Where it listens, as a client writes it.
     pub fn url(&self) -> String {
-        format!("http://{}", self.address())
+        let scheme = if self.tls.is_some() { "https" } else { "http" };
+        format!("{scheme}://{}", self.address())
     }
 
     /// A connection of its own.
@@ -241,12 +247,21 @@ impl TestServer {
 
     /// A connection of its own that shows no token.
     pub async fn bare_channel(&self) -> Channel {
-        Endpoint::from_shared(self.url())
+        let endpoint = Endpoint::from_shared(format!("http://{}", self.address()))
             .unwrap()
-            .tcp_nodelay(true)
-            .connect()
-            .await
-            .unwrap()
+            .tcp_nodelay(true);
+        let channel = match &self.tls {
+            None => endpoint.connect().await,
+            Some(tls) => tls.channel(&endpoint, self.address()).await,
+        };
+        channel.unwrap()
+    }
+
+    /// From now on the harness speaks TLS to it.
+    #[must_use]
+    pub fn spoken_to_over(mut self, tls: TestTls) -> Self {
+        self.tls = Some(tls);
+        self
     }
 
     /// A client of the actors.

@@ -8,9 +8,9 @@ use frontalis_proto::v1::{
 };
 use tokio::sync::mpsc;
 use tokio_stream::wrappers::ReceiverStream;
-use tonic::{Status, Streaming, transport::Channel};
+use tonic::{Status, Streaming};
 
-use crate::TestServer;
+use crate::{TestServer, server::TestChannel};
 
 /// The client's end of a subscription.
 pub struct Subscriber {
@@ -71,7 +71,7 @@ impl Subscriber {
     /// # Errors
     ///
     /// When the server refuses the start.
-    pub async fn open_on(channel: Channel, start: SubscribeStart) -> Result<Self, Status> {
+    pub async fn open_on(channel: TestChannel, start: SubscribeStart) -> Result<Self, Status> {
         let (requests, outgoing) = mpsc::channel(64);
         let first = SubscribeRequest {
             start: Some(start),

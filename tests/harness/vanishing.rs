@@ -9,8 +9,10 @@ use std::{
 use hyper_util::rt::TokioIo;
 use socket2::{SockFilter, SockRef};
 use tokio::net::TcpStream;
-use tonic::transport::{Channel, Endpoint, Uri};
+use tonic::transport::{Endpoint, Uri};
 use tower::service_fn;
+
+use crate::{keys::Bearer, server::TestChannel};
 
 /// Takes every packet that comes for a socket away before the system sees it, acknowledgements included.
 const DROP_ALL: SockFilter = SockFilter::new(0x06, 0, 0, 0);
@@ -34,17 +36,18 @@ impl Vanishing {
     }
 
     /// The same for gRPC.
-    pub async fn channel(&self, address: SocketAddr) -> Channel {
+    pub async fn channel(&self, address: SocketAddr) -> TestChannel {
         let vanishing = self.clone();
         let connect = service_fn(move |_: Uri| {
             let vanishing = vanishing.clone();
             async move { vanishing.connect(address).await.map(TokioIo::new) }
         });
-        Endpoint::from_shared(format!("http://{address}"))
+        let channel = Endpoint::from_shared(format!("http://{address}"))
             .unwrap()
             .connect_with_connector(connect)
             .await
-            .unwrap()
+            .unwrap();
+        TestChannel::new(channel, Bearer::default())
     }
 
     /// The link is down.

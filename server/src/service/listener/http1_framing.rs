@@ -61,15 +61,14 @@ impl Http1Framing {
     /// Follows these bytes, and spoils the one that completes an ambiguous request.
     pub(super) fn follow(&mut self, mut bytes: &mut [u8]) {
         while !bytes.is_empty() && self.part != Part::Opaque {
-            let n = match self.part {
-                Part::Content { n_left, is_chunk } => self.skip(n_left, is_chunk, bytes.len()),
-                _ => {
-                    if !self.take(bytes[0]) {
-                        bytes[0] = SPOILED;
-                        self.part = Part::Opaque;
-                    }
-                    1
+            let n = if let Part::Content { n_left, is_chunk } = self.part {
+                self.skip(n_left, is_chunk, bytes.len())
+            } else {
+                if !self.take(bytes[0]) {
+                    bytes[0] = SPOILED;
+                    self.part = Part::Opaque;
                 }
+                1
             };
             bytes = &mut bytes[n..];
         }
