@@ -160,7 +160,7 @@ pub async fn run(
         phases: phases.clone(),
         large_bodies: LargeBodies::default(),
     };
-    let access = access(&config, audit, metrics.clone())?;
+    let access = access(&config, audit.clone(), metrics.clone())?;
     let guard = Guard::new(&config, tls.clone());
     let (router, health) = door::router(doors, guard, access.clone()).await?;
 
@@ -193,6 +193,7 @@ pub async fn run(
         router,
         tls: tls.clone(),
         metrics: metrics.clone(),
+        audit: audit.clone(),
         phases: phases.clone(),
         tasks: connections.clone(),
     };

@@ -20,6 +20,7 @@ use axum::Router;
 use tokio::net::{TcpListener, TcpSocket};
 use tokio_util::task::TaskTracker;
 
+use super::audit::Audit;
 use crate::{
     config::{Config, Transport},
     shutdown::Phases,
@@ -66,6 +67,8 @@ pub struct Listener {
     pub tls: Option<Tls>,
     /// Where connections are counted.
     pub metrics: Metrics,
+    /// Where certificates of clients that are refused are written down.
+    pub audit: Audit,
     /// When to stop accepting, to finish, and to give up.
     pub phases: Phases,
     /// Owns the connections' tasks.

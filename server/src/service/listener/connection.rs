@@ -26,7 +26,15 @@ use super::{
     liveness::Liveness,
     tls::{Handshake, Tls},
 };
-use crate::{config::Config, shutdown::Phases, telemetry::Metrics};
+use crate::{
+    config::Config,
+    service::{
+        audit::{Audit, Entry},
+        peer::Peer,
+    },
+    shutdown::Phases,
+    telemetry::Metrics,
+};
 
 /// Bytes of one HTTP/1 read buffer; headers beyond it are refused.
 const HTTP1_BUFFER_BYTES: usize = 64 * 1024;
@@ -50,6 +58,7 @@ pub(super) struct Connections {
     handshake_deadline: Duration,
     header_deadline: Duration,
     metrics: Metrics,
+    audit: Audit,
     phases: Phases,
     tasks: TaskTracker,
 }
@@ -74,6 +83,7 @@ impl Connections {
             handshake_deadline: Duration::from_secs(transport.handshake_deadline_secs),
             header_deadline: Duration::from_secs(transport.header_deadline_secs),
             metrics: listener.metrics.clone(),
+            audit: listener.audit.clone(),
             phases: listener.phases.clone(),
             tasks: listener.tasks.clone(),
         }
@@ -121,7 +131,12 @@ impl Connections {
         self.metrics.handshake_failed(why.kind());
         match why {
             Handshake::Certificate(why) => {
-                tracing::warn!(target: "audit", %peer, why, "a client's certificate was refused");
+                let peer = Peer {
+                    address: Some(peer),
+                    ..Peer::default()
+                };
+                self.audit
+                    .failure(Entry::new("auth_failure", &peer, "certificate", why));
             }
             why => tracing::debug!(%peer, ?why, "a handshake came to nothing"),
         }
