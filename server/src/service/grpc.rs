@@ -5,6 +5,7 @@ pub mod capture;
 pub mod curves;
 mod ending;
 pub mod messages;
+mod opening;
 pub mod reasons;
 pub(super) mod refusal;
 pub mod server;

@@ -6,7 +6,7 @@ use std::{
 };
 
 use tokio::sync::mpsc;
-use tokio_util::task::TaskTracker;
+use tokio_util::{sync::CancellationToken, task::TaskTracker};
 use tracing::Instrument as _;
 
 use super::{
@@ -32,6 +32,7 @@ pub struct SessionRegistry {
 struct Inner {
     commons: Commons,
     tasks: TaskTracker,
+    draining: CancellationToken,
     sessions: Mutex<Sessions>,
 }
 
@@ -59,6 +60,7 @@ impl SessionRegistry {
             inner: Arc::new(Inner {
                 commons,
                 tasks: TaskTracker::new(),
+                draining: CancellationToken::new(),
                 sessions: Mutex::default(),
             }),
         }
@@ -129,9 +131,15 @@ impl SessionRegistry {
             sessions.is_draining = true;
             sessions.by_id.values().cloned().collect()
         };
+        self.inner.draining.cancel();
         handles.iter().for_each(SessionHandle::drain);
         self.inner.tasks.close();
         self.inner.tasks.wait().await;
+    }
+
+    /// Waits until [`Self::drain`] is called.
+    pub async fn draining(&self) {
+        self.inner.draining.cancelled().await;
     }
 
     fn sessions(&self) -> MutexGuard<'_, Sessions> {

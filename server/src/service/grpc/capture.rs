@@ -7,10 +7,13 @@ use std::{pin::Pin, time::Duration};
 
 use frontalis_proto::v1::{self, capture_service_server::CaptureService};
 use futures::{Stream, StreamExt as _, stream};
-use tokio::time::{Instant, sleep_until, timeout};
+use tokio::time::{Instant, sleep_until};
 use tonic::{Code, Request, Response, Status, Streaming};
 
-use super::status::refuse;
+use super::{
+    opening::{first_message, protocol_order},
+    status::refuse,
+};
 use crate::{
     catalogue::Store,
     clock::ServerClock,
@@ -30,8 +33,6 @@ use crate::{
 const FRAMES_PER_RESPONSE: u32 = 32;
 /// Time after which a response is sent; below the promised 50 ms, so that a timer that fires late keeps the promise.
 const RESPONSE_DELAY: Duration = Duration::from_millis(40);
-/// How long a stream may wait for its first message.
-const START_TIMEOUT: Duration = Duration::from_secs(10);
 /// Rejections in one response; the rest follow in the next.
 const REJECTIONS_PER_RESPONSE: usize = 256;
 
@@ -160,10 +161,6 @@ fn not_implemented() -> Status {
     refuse(Code::Unimplemented, "NOT_IMPLEMENTED", message)
 }
 
-fn protocol_order(message: &str) -> Status {
-    refuse(Code::FailedPrecondition, "PROTOCOL_ORDER", message)
-}
-
 /// One publisher's stream.
 struct Publishing<S> {
     service: CaptureGrpc,
@@ -196,13 +193,7 @@ where
 
     async fn open(&mut self) -> Result<v1::PublishResponse, Status> {
         CaptureGrpc::admit(&self.peer.caller)?;
-        let first = timeout(START_TIMEOUT, self.requests.next()).await;
-        let first = first.map_err(|_elapsed| {
-            let message = "no start within 10 s";
-            refuse(Code::DeadlineExceeded, "START_TIMEOUT", message)
-        })?;
-        let request =
-            first.ok_or_else(|| protocol_order("the stream ended before its start"))??;
+        let request = first_message(&mut self.requests, &self.service.registry).await?;
         let missing = || protocol_order("the first message must be start");
         let publication = self
             .service

@@ -3,14 +3,16 @@
 //! A stream pulls from its subscription when its connection has room, so that nothing is queued for a subscriber that
 //! does not read (CONTRACTS D-14, D-19). It has no task of its own, and frees its place when it is dropped.
 
-use std::{pin::Pin, time::Duration};
+use std::pin::Pin;
 
 use frontalis_proto::v1::{self, curve_service_server::CurveService};
 use futures::{Stream, StreamExt as _, stream};
-use tokio::time::timeout;
-use tonic::{Code, Request, Response, Status, Streaming};
+use tonic::{Request, Response, Status, Streaming};
 
-use super::{ending, status::refuse};
+use super::{
+    ending,
+    opening::{first_message, protocol_order},
+};
 use crate::{
     catalogue::Store,
     clock::ServerClock,
@@ -23,9 +25,6 @@ use crate::{
     session::{SessionError, SessionHandle, SessionRegistry},
     wire::curve::{self as wire, SampleDetail},
 };
-
-/// How long a stream may wait for its first message.
-const START_TIMEOUT: Duration = Duration::from_secs(10);
 
 /// The service; cheap to clone.
 #[derive(Clone)]
@@ -216,20 +215,9 @@ where
 
     async fn start(&mut self) -> Result<(Flow, v1::SubscribeResponse), Status> {
         self.peer.caller.may(Action::Subscribe)?;
-        let out_of_order =
-            |message: &str| refuse(Code::FailedPrecondition, "PROTOCOL_ORDER", message);
-        let first = timeout(START_TIMEOUT, self.grants.next()).await;
-        let first = first.map_err(|_elapsed| {
-            refuse(
-                Code::DeadlineExceeded,
-                "START_TIMEOUT",
-                "no start within 10 s",
-            )
-        })?;
-        let request = first.ok_or_else(|| out_of_order("the stream ended before its start"))??;
-        let start = request
-            .start
-            .ok_or_else(|| out_of_order("the first message must be start"))?;
+        let request = first_message(&mut self.grants, &self.service.registry).await?;
+        let missing = || protocol_order("the first message must be start");
+        let start = request.start.ok_or_else(missing)?;
         self.service.open(&start, &self.peer, true).await
     }
 }
@@ -260,8 +248,7 @@ impl Flow {
         };
         let request = request?;
         if request.start.is_some() {
-            let message = "start was sent twice";
-            return Err(refuse(Code::FailedPrecondition, "PROTOCOL_ORDER", message));
+            return Err(protocol_order("start was sent twice"));
         }
         self.subscription.grant(request.credits);
         Ok(())

@@ -180,7 +180,6 @@ impl Stream {
             max_message_bytes,
             ..
         } = doors.services;
-        let closing = doors.phases.closing;
         let Subprotocol { direction, form } = self.spoken;
         let limit_bytes = match direction {
             Direction::Subscribe => SMALL_MESSAGE_BYTES,
@@ -201,14 +200,14 @@ impl Stream {
                 let (inbox, requests) = mpsc::channel(0);
                 let responses = curves.subscription(requests, self.peer);
                 Conversation::new(topic, socket, inbox, responses)
-                    .run(closing)
+                    .run()
                     .await;
             }
             Direction::Publish => {
                 let (inbox, requests) = mpsc::channel(0);
                 let responses = capture.publish(requests, self.peer);
                 Conversation::new(topic, socket, inbox, responses)
-                    .run(closing)
+                    .run()
                     .await;
             }
         }

@@ -3,7 +3,8 @@
 use std::time::Duration;
 
 use frontalis_proto::v1::SessionState;
-use tokio::time::{Instant, sleep};
+use tokio::time::{Instant, sleep, timeout};
+use tonic::Code;
 
 use super::*;
 use crate::service::grpc::stage::{Stage, asked, assert_refused, every_frame, latest, start};

@@ -30,7 +30,6 @@ use tokio_tungstenite::{
         },
     },
 };
-use tokio_util::sync::CancellationToken;
 use tonic::Status;
 
 use super::{
@@ -42,7 +41,6 @@ use super::{
     patience::{Metered, Patience, TICK, Verdict},
     subprotocol::Form,
 };
-use crate::session::SessionError;
 
 /// Time for the last words, and for the peer to hear them.
 const LAST_WORDS: Duration = Duration::from_secs(2);
@@ -132,9 +130,9 @@ where
         }
     }
 
-    /// Talks to the end. One that has not begun when the server closes is told so.
-    pub(super) async fn run(mut self, closing: CancellationToken) {
-        match self.talk(&closing).await {
+    /// Talks to the end.
+    pub(super) async fn run(mut self) {
+        match self.talk().await {
             End::Gone => {}
             End::Goodbye => self.see_off().await,
             End::Peace => self.close(None, closing::in_peace()).await,
@@ -146,26 +144,16 @@ where
         }
     }
 
-    async fn talk(&mut self, closing: &CancellationToken) -> End {
-        let mut has_begun = false;
+    async fn talk(&mut self) -> End {
         loop {
-            let event = tokio::select! {
-                biased;
-                event = poll_fn(|cx| self.poll(cx)) => event,
-                () = closing.cancelled(), if !has_begun => {
-                    return End::Failed(SessionError::Draining.into());
-                }
-            };
+            let event = poll_fn(|cx| self.poll(cx)).await;
             let end = match event {
                 Event::Heard(Ok(message)) => self.hear(message),
                 Event::Heard(Err(error)) => self.fail(&error),
                 Event::Gone => Some(End::Gone),
                 Event::Answer(None) => Some(End::Peace),
                 Event::Answer(Some(Err(status))) => Some(End::Failed(status)),
-                Event::Answer(Some(Ok(answer))) => {
-                    has_begun = true;
-                    self.answer(&answer)
-                }
+                Event::Answer(Some(Ok(answer))) => self.answer(&answer),
                 Event::Tick => self.judge(),
             };
             if let Some(end) = end {

@@ -45,7 +45,7 @@ fn talk(
         let broken = requests.filter_map(async |it| it.err().map(Answer::Err));
         let responses = stream::select(broken.chain(stream::pending()), responses);
         let conversation = Conversation::new(topic, socket, inbox, Box::pin(responses));
-        conversation.run(CancellationToken::new()).await;
+        conversation.run().await;
     });
     (talking, client)
 }
@@ -191,25 +191,4 @@ async fn e13_what_breaks_the_protocol_has_the_close_code_of_its_kind() {
         io.write_all(&sent).await.unwrap();
         assert_eq!(last_words(io).await, (code, reason.to_owned()), "{sent:x?}");
     }
-}
-
-#[tokio::test(start_paused = true)]
-async fn one_that_has_not_begun_when_the_server_closes_is_told_so() {
-    let (io, server) = duplex(1_024);
-    let socket = WebSocketStream::from_raw_socket(Metered::new(server), Role::Server, None).await;
-    let topic = Topic {
-        session: "sessions/one".into(),
-        instance: "/here".into(),
-        form: Form::Protobuf,
-        limit_bytes: LIMIT_BYTES,
-        finishes: false,
-    };
-    let (inbox, _requests) = mpsc::channel::<Result<v1::SubscribeRequest, Status>>(0);
-    let silent: Responses<v1::SubscribeResponse> = Box::pin(stream::pending());
-    let closing = CancellationToken::new();
-    let conversation = Conversation::new(topic, socket, inbox, silent);
-    let talking = tokio::spawn(conversation.run(closing.clone()));
-    closing.cancel();
-    talking.await.unwrap();
-    assert_eq!(last_words(io).await, (1001, "DRAINING".to_owned()));
 }
