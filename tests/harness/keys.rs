@@ -16,7 +16,7 @@ pub struct Keys {
 
 /// The time now, as token files have it.
 pub fn now() -> UnixTime {
-    std::time::SystemTime::now().into()
+    frontalis_server::clock::wall_now().into()
 }
 
 impl Keys {

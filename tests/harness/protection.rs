@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use frontalis_access::{NewToken, Role, Scope, TokenFile, UnixTime};
+use frontalis_access::{NewToken, Role, Scope, TokenFile};
 use frontalis_server::config::Config;
 use rcgen::{
     BasicConstraints, CertificateParams, CertifiedIssuer, DnType, IsCa, KeyPair, KeyUsagePurpose,
@@ -61,7 +61,7 @@ impl Protection {
         let text = std::fs::read_to_string(self.token_file()).unwrap();
         let mut file = TokenFile::parse(&text).unwrap();
         let scope: Scope = scope.parse().unwrap();
-        let now = UnixTime::from(std::time::SystemTime::now());
+        let now = crate::now();
         let token = file
             .create(NewToken::new(role.name(), role, scope), now)
             .unwrap();

@@ -8,12 +8,15 @@ use std::{
         Arc,
         atomic::{AtomicU64, Ordering},
     },
-    time::{Duration, Instant},
+    time::Duration,
 };
 
 use frontalis_proto::v1::{SubscribeRequest, SubscribeResponse, SubscribeStart};
 use prost::Message as _;
-use tokio::{task::JoinSet, time::sleep};
+use tokio::{
+    task::JoinSet,
+    time::{Instant, sleep},
+};
 use tokio_util::sync::CancellationToken;
 
 use super::{EventStream, GrpcWeb, WebSocket};
