@@ -61,6 +61,11 @@ pub(super) async fn serve(Extension(document): Extension<Document>) -> Response 
 pub(super) fn document(operations: &OpenApi, tokens: bool) -> Value {
     let mut document = json!(operations);
     for operation in operations_of(&mut document["paths"]) {
+        let parameters = operation.get_mut("parameters");
+        let parameters = parameters.and_then(Value::as_array_mut);
+        for parameter in parameters.into_iter().flatten() {
+            forget_width(&mut parameter["schema"]);
+        }
         if let Some(body) = operation.get_mut("requestBody") {
             let may_be_absent = references(body).iter().any(|it| limits::may_be_absent(it));
             body["required"] = json!(!may_be_absent);
@@ -92,6 +97,15 @@ pub(super) fn document(operations: &OpenApi, tokens: bool) -> Value {
         },
     });
     document
+}
+
+/// `int32` and `int64` are signed, while every number of a query is not: its bounds say what it is.
+fn forget_width(schema: &mut Value) {
+    if schema["type"] == "integer"
+        && let Some(schema) = schema.as_object_mut()
+    {
+        schema.remove("format");
+    }
 }
 
 /// Everything that the paths refer to, and what that refers to.

@@ -54,11 +54,11 @@ pub(in super::super) struct EventsQuery {
 #[into_params(parameter_in = Header)]
 #[expect(dead_code, reason = "only describes the header")]
 pub(super) struct LastEventId {
-    /// `run:sequence`, the id of the last event that the client has.
+    /// `run:sequence`, the id of the last event that the client has; empty: none.
     #[param(
         rename = "last-event-id",
         required = false,
-        pattern = "^[0-9]{1,19}:[0-9]{1,19}(:end)?$",
+        pattern = "^([0-9]{1,19}:[0-9]{1,19}(:end)?)?$",
         example = "1:120"
     )]
     last_event_id: String,
@@ -169,10 +169,11 @@ pub(super) fn resumed(headers: &HeaderMap) -> Result<Option<Position>, Problem> 
     let Some(sent) = headers.get(LAST_EVENT_ID) else {
         return Ok(None);
     };
-    let text = sent.to_str().unwrap_or_default().trim();
-    if text.is_empty() {
+    if sent.is_empty() {
         return Ok(None);
     }
+    // What is no text is no position either, and not none.
+    let text = sent.to_str().unwrap_or(":");
     text.parse().map(Some).map_err(|()| {
         let detail = "Last-Event-ID must be run:sequence, the id of the last event";
         Problem::new(StatusCode::BAD_REQUEST, "EVENT_ID", detail)

@@ -44,6 +44,8 @@ fn every_operation_says_what_it_is_and_who_may_call_it() {
         let id = operation["operationId"].as_str().unwrap().to_owned();
         assert!(operation["summary"].is_string(), "{id}");
         assert!(operation["tags"].is_array(), "{id}");
+        let fields = operation.as_object().unwrap();
+        assert!(fields.values().all(|it| !it.is_null()), "{id}");
         let responses = operation["responses"].as_object().unwrap();
         let asks_who = operation.get("security").is_none();
         assert_eq!(responses.contains_key("401"), asks_who, "{id}");
