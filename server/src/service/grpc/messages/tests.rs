@@ -1,3 +1,5 @@
+//! Bodies cut anywhere, messages that stay incomplete, and what is held of them meanwhile (BAD_INPUT E1, E2, E5, E9, F5).
+
 use futures::{FutureExt as _, StreamExt as _};
 use http_body_util::{BodyExt as _, StreamBody};
 use proptest::prelude::*;
