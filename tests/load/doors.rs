@@ -19,6 +19,6 @@ async fn main() {
     let server = TestServer::start_program(|_| {}).await;
     server.import_reference().await;
     println!("{}", DoorCosts::measure(&server, seconds).await);
-    println!("{}", StalledDoors::measure(&server).await);
     server.stop().await;
+    println!("{}", StalledDoors::measure().await);
 }

@@ -75,7 +75,7 @@ async fn e13_a_frame_of_64_mib_is_closed_with_1009_before_it_comes() {
 #[tokio::test(flavor = "multi_thread", worker_threads = 2)]
 async fn e13_endless_fragments_are_closed_with_1009() {
     beside_a_control_session("E13 fragments", async |stage| {
-        let piece = [b' '; 32 * 1024];
+        let piece = vec![b' '; 32 * 1024];
         let mut frames = vec![SocketFrames::frame(0x01, &piece)];
         // 64 MiB, if nobody stopped it.
         frames.extend(std::iter::repeat_n(

@@ -223,6 +223,10 @@ async fn one_message(server: &TestServer) -> Vec<u8> {
 }
 
 /// The same bytes at the same rate to as many connections, from one thread: microseconds a write.
+#[expect(
+    clippy::disallowed_methods,
+    reason = "the plain writer is a thread without a runtime"
+)]
 fn raw_turn(bytes: &[u8], span: Duration) -> f64 {
     let listener = TcpListener::bind("127.0.0.1:0").unwrap();
     let mut writers = Vec::new();

@@ -55,13 +55,14 @@ struct Row {
 }
 
 impl StalledDoors {
-    /// Measures a server that is a program of its own.
-    pub async fn measure(server: &TestServer) -> Self {
+    /// Measures one server after the other, each a program of its own: what one kind had used is not there for the next.
+    pub async fn measure() -> Self {
         let mut rows = Vec::new();
-        // The first run warms up: buffers, threads, allocator.
-        stall(server, 0, KINDS[0]).await;
-        for (turn, kind) in (1..).zip(KINDS) {
-            rows.push(stall(server, turn, kind).await);
+        for kind in KINDS {
+            let server = TestServer::start_program(|_| {}).await;
+            server.import_reference().await;
+            rows.push(stall(&server, kind).await);
+            server.stop().await;
         }
         Self { rows }
     }
@@ -91,16 +92,16 @@ impl fmt::Display for StalledDoors {
     }
 }
 
-async fn stall(server: &TestServer, turn: usize, (kind, asked): (&'static str, &str)) -> Row {
-    let id = format!("stall-{turn}");
+async fn stall(server: &TestServer, (kind, asked): (&'static str, &str)) -> Row {
+    let id = "stall";
     let stop = CancellationToken::new();
-    let session = RunningSession::start(server, &id, N_HEALTHY, stop.clone()).await;
+    let session = RunningSession::start(server, id, N_HEALTHY, stop.clone()).await;
     sleep(Duration::from_secs(1)).await;
     let before = server.program().resident_bytes();
     let mut stalled = Vec::new();
     if !asked.is_empty() {
         for _ in 0..N_STALLED {
-            stalled.push(open(server, &id, asked).await);
+            stalled.push(open(server, id, asked).await);
         }
     }
     sleep(SPAN).await;
