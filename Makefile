@@ -130,6 +130,12 @@ churn: ## Sessions made, used and ended for CHURN_SECONDS (ten minutes): memory,
 bench-late: ## A renderer that sleeps 20 s at 120 Hz: what it gets when it wakes
 	cargo run --release --package frontalis-tests --bin late
 
+.PHONY: bench-abuse
+bench-abuse: ## What abuse of HTTP/2 and of connections costs the server: the figures of docs/reliability.md
+	cargo build --workspace --bins --quiet
+	@cargo test --package frontalis-tests --test end_to_end -- --nocapture --test-threads 1 \
+	  bad_input::http2 bad_input::connections bad_input::tls | grep --extended-regexp 'G12|F[0-9]+|test result'
+
 .PHONY: bench-doors
 bench-doors: ## Processor time of a delivered sample at each door beside plain TCP, and what clients that do not read cost
 	cargo build --release --bin frontalis-server

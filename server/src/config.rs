@@ -299,6 +299,24 @@ mod tests {
     use super::*;
 
     #[test]
+    fn the_defaults_of_connections_are_those_of_the_contract() {
+        let (limits, transport) = (Limits::default(), Transport::default());
+        // O-1.
+        assert_eq!(
+            (limits.connections, limits.connections_per_peer),
+            (2_048, 1_024)
+        );
+        assert_eq!(limits.streams_per_connection, 256);
+        // D-25: a vanished peer is found within 15 s.
+        assert_eq!(transport.keepalive_interval_secs, 5);
+        assert_eq!(transport.keepalive_timeout_secs, 10);
+        // S-9.
+        assert_eq!(transport.handshake_deadline_secs, 5);
+        assert_eq!(transport.header_deadline_secs, 5);
+        assert_eq!(transport.header_list_kib, 16);
+    }
+
+    #[test]
     fn the_defaults_are_accepted() {
         Config::default().validate().unwrap();
     }

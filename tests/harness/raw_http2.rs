@@ -224,7 +224,8 @@ impl RawHttp2 {
     }
 }
 
-fn take_frame(received: &mut Vec<u8>) -> Option<Frame> {
+/// Takes the first whole frame out of what was received.
+pub fn take_frame(received: &mut Vec<u8>) -> Option<Frame> {
     let [a, b, c, kind, flags, s0, s1, s2, s3] = *received.first_chunk::<9>()?;
     let length = u32::from_be_bytes([0, a, b, c]) as usize;
     if received.len() < 9 + length {

@@ -2,14 +2,26 @@
 //!
 //! They go to a program of its own, whose memory is measured; its processor time is printed (CONTRACTS G12).
 
-use std::net::SocketAddr;
-
-use harness::{
-    Cost, TestServer,
-    raw_http2::{Ended, RawHttp2, flag, frame, get, kind, literal, request_block},
+use std::{
+    collections::BTreeMap,
+    net::SocketAddr,
+    sync::{Arc, Mutex},
 };
 
-use super::{Stage, beside_a_control_session_of};
+use frontalis_server::service::listener::ControlFrame;
+use harness::{
+    Cost, Subscriber, TestServer, every_frame,
+    raw_http2::{
+        Ended, PREFACE, RawHttp2, flag, frame, get, kind, literal, request_block, take_frame,
+    },
+};
+use tokio::{
+    io::{AsyncReadExt as _, AsyncWriteExt as _},
+    net::{TcpListener, TcpStream},
+};
+use tonic::transport::Endpoint;
+
+use super::{Stage, beside_a_control_session, beside_a_control_session_of};
 
 const PUBLISH: &str = "/frontalis.v1.CaptureService/PublishMarkers";
 
@@ -293,6 +305,87 @@ async fn f10_frames_that_make_no_sense_end_the_connection() {
                 "{what}: {goaways:?} {:?}",
                 ended.resets()
             );
+        }
+    })
+    .await;
+}
+
+/// How many frames of each kind went by.
+type Counts = Arc<Mutex<BTreeMap<u8, u32>>>;
+
+/// Stands before a server, and counts what one client sends; where it listens.
+async fn counting_before(server: SocketAddr, counts: Counts) -> SocketAddr {
+    let listener = TcpListener::bind("127.0.0.1:0").await.unwrap();
+    let address = listener.local_addr().unwrap();
+    tokio::spawn(async move {
+        let (mut client, _) = listener.accept().await.unwrap();
+        let mut server = TcpStream::connect(server).await.unwrap();
+        let (mut from_client, mut to_client) = client.split();
+        let (mut from_server, mut to_server) = server.split();
+        let up = async {
+            let mut preface = [0; PREFACE.len()];
+            from_client.read_exact(&mut preface).await?;
+            to_server.write_all(&preface).await?;
+            let mut received = Vec::new();
+            loop {
+                let before = received.len();
+                if from_client.read_buf(&mut received).await? == 0 {
+                    return std::io::Result::Ok(());
+                }
+                to_server.write_all(&received[before..]).await?;
+                while let Some(frame) = take_frame(&mut received) {
+                    *counts.lock().unwrap().entry(frame.kind).or_default() += 1;
+                }
+            }
+        };
+        let down = tokio::io::copy(&mut from_server, &mut to_client);
+        drop(tokio::join!(up, down));
+    });
+    address
+}
+
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn a_client_of_64_streams_at_120_hz_stays_far_below_the_budgets() {
+    const N_STREAMS: u32 = 64;
+    const N_FRAMES: u64 = 360;
+    beside_a_control_session("F8 budgets", async |stage| {
+        let counts = Counts::default();
+        let proxy = counting_before(stage.server.address(), counts.clone()).await;
+        let endpoint = Endpoint::from_shared(format!("http://{proxy}")).unwrap();
+        let channel = endpoint.connect().await.unwrap();
+        let mut subscribers = Vec::new();
+        for _ in 0..N_STREAMS {
+            let channel = harness::TestChannel::new(channel.clone(), harness::Bearer::default());
+            let start = every_frame("sessions/control");
+            subscribers.push(Subscriber::open_on(channel, start).await.unwrap());
+        }
+        let first = subscribers[0].samples_through(1).await.unwrap().len();
+        assert!(first > 0);
+        counts.lock().unwrap().clear();
+        let through = N_FRAMES;
+        let all = subscribers.iter_mut().map(|it| it.samples_through(through));
+        for heard in futures::future::join_all(all).await {
+            heard.unwrap();
+        }
+        let counts = counts.lock().unwrap().clone();
+        let secs = N_FRAMES as f64 / 120.0;
+        let budgets = [
+            (kind::PING, ControlFrame::Ping),
+            (kind::WINDOW_UPDATE, ControlFrame::WindowUpdate),
+            (kind::SETTINGS, ControlFrame::Settings),
+            (kind::RST_STREAM, ControlFrame::Reset),
+            (kind::PRIORITY, ControlFrame::Priority),
+            (kind::CONTINUATION, ControlFrame::Continuation),
+        ];
+        for (kind, frames) in budgets {
+            let n = counts.get(&kind).copied().unwrap_or_default();
+            println!(
+                "F8: {N_STREAMS} streams at 120 Hz send {:.0} {} frames a second, {} allowed",
+                f64::from(n) / secs,
+                frames.name(),
+                frames.budget()
+            );
+            assert!(f64::from(n) / secs <= f64::from(frames.budget()) / 4.0);
         }
     })
     .await;

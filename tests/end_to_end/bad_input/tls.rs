@@ -1,8 +1,8 @@
 //! Row F12: what is no TLS, stalls, or shows a certificate that is not believed; and a new certificate while frames flow.
 
-use std::{net::SocketAddr, time::Duration};
+use std::{net::SocketAddr, path::Path, time::Duration};
 
-use frontalis_server::config::Config;
+use frontalis_server::{config::Config, service::audit::FILE_NAME};
 use harness::{ClientCert, TestAuthority, TestServer, TestTls, assert_eventually};
 use rustls::{ClientConnection, pki_types::ServerName};
 use tokio::{
@@ -122,8 +122,10 @@ async fn f12_certificates_of_clients_that_are_not_believed_are_refused() {
     let (authority, other) = (TestAuthority::new("authority"), TestAuthority::new("other"));
     let revoked = authority.client("revoked", 7, 2100);
     let (ca, crl) = (authority.ca_file(), authority.revoked_file(&[&revoked]));
+    let mut data_dir = String::new();
     let server = server(&authority, |config| {
         (config.tls.client_ca, config.tls.client_crl) = (ca, crl);
+        data_dir.clone_from(&config.data_dir);
     });
     beside_a_control_session_of("F12 certificates", server.await, async |stage| {
         let address = stage.server.address();
@@ -145,6 +147,15 @@ async fn f12_certificates_of_clients_that_are_not_believed_are_refused() {
         let counted = "frontalis_tls_handshake_failures_total{why=\"certificate\"} 3\n";
         let metrics = answer(None).await.unwrap();
         assert!(metrics.contains(counted), "{metrics}");
+        let audit = Path::new(&data_dir).join(FILE_NAME);
+        for why in ["expired", "issued by an authority", "revoked"] {
+            let is_noted = || {
+                let text = std::fs::read_to_string(&audit).unwrap();
+                text.lines()
+                    .any(|it| it.contains("auth_failure") && it.contains(why))
+            };
+            assert_eventually!(is_noted(), "{why} is no line of the audit log");
+        }
     })
     .await;
 }

@@ -18,6 +18,8 @@ use tokio::{
 
 /// Time for the peer to hear the end.
 const LINGER: Duration = Duration::from_secs(1);
+/// What is thrown away in that time, bytes: an upload that was on its way, not a flood.
+const LINGER_BYTES: usize = 4 << 20;
 /// What is thrown away at once, bytes.
 const PIECE_BYTES: usize = 4 * 1024;
 
@@ -26,6 +28,7 @@ pub(super) struct Lingering<S> {
     stream: S,
     /// Runs once the end was said.
     until: Option<Pin<Box<Sleep>>>,
+    n_thrown_away: usize,
 }
 
 impl<S> Lingering<S> {
@@ -33,6 +36,7 @@ impl<S> Lingering<S> {
         Self {
             stream,
             until: None,
+            n_thrown_away: 0,
         }
     }
 }
@@ -73,7 +77,9 @@ impl<S: AsyncRead + AsyncWrite + Unpin> AsyncWrite for Lingering<S> {
         loop {
             let mut buf = ReadBuf::new(&mut piece);
             let read = ready!(Pin::new(&mut this.stream).poll_read(cx, &mut buf));
-            if read.is_err() || buf.filled().is_empty() {
+            this.n_thrown_away += buf.filled().len();
+            let is_over = buf.filled().is_empty() || this.n_thrown_away >= LINGER_BYTES;
+            if read.is_err() || is_over {
                 return Poll::Ready(Ok(()));
             }
         }
@@ -115,6 +121,25 @@ mod tests {
         drop(peer);
         shut.await.unwrap().unwrap();
         assert_eq!(began.elapsed(), Duration::ZERO);
+    }
+
+    #[tokio::test(start_paused = true)]
+    async fn one_that_goes_on_and_on_is_not_listened_to() {
+        let (mut peer, stream) = duplex(PIECE_BYTES);
+        let flood = tokio::spawn(async move {
+            let mut n_sent = 0;
+            while peer.write_all(&[0; 1024]).await.is_ok() {
+                n_sent += 1024;
+            }
+            n_sent
+        });
+        let began = Instant::now();
+        let mut lingering = Lingering::new(stream);
+        lingering.shutdown().await.unwrap();
+        assert_eq!(began.elapsed(), Duration::ZERO);
+        drop(lingering);
+        let n_sent: usize = flood.await.unwrap();
+        assert!(n_sent <= LINGER_BYTES + 2 * PIECE_BYTES, "{n_sent}");
     }
 
     #[tokio::test(start_paused = true)]
