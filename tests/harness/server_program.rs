@@ -55,6 +55,11 @@ impl ServerProgram {
         self.status_bytes("VmRSS:")
     }
 
+    /// Memory that is reserved for data, whether written or not, bytes.
+    pub fn data_bytes(&self) -> u64 {
+        self.status_bytes("VmData:")
+    }
+
     /// The most resident memory since the start or [`Self::forget_peak`], bytes.
     pub fn peak_resident_bytes(&self) -> u64 {
         self.status_bytes("VmHWM:")

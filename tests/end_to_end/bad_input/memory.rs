@@ -24,31 +24,33 @@ async fn e2_a_prefix_larger_than_its_data_ends_in_time_and_reserves_nothing() {
         let sent_bytes = 1_000;
         for (path, declared_bytes) in [(PUBLISH, 1 << 20), (CREATE, 64 << 10)] {
             let mut connection = RawConnection::open(&stage.server).await;
-            // What is made for the first calls is not made again.
-            for _ in 0..N_WAITING {
-                let mut call = connection.call(path, &[]).await;
-                call.send(&framed(b"")).await;
-                call.finish();
-                call.answer().await;
-            }
-            let before = stage.server.program().resident_bytes();
-            let content = vec![0x0a; sent_bytes];
+            let program = stage.server.program();
+            let empty = program.resident_bytes();
             let mut calls = Vec::new();
             for _ in 0..N_WAITING {
-                let mut call = connection.call(path, &[]).await;
-                call.send(&prefixed(0, declared_bytes, &content)).await;
-                calls.push(call);
+                calls.push(connection.call(path, &[]).await);
             }
             // Asked behind them, so they have been read.
             connection.answer(path, &framed(b"")).await;
-            let grown = stage
-                .server
-                .program()
-                .resident_bytes()
-                .saturating_sub(before);
-            println!("E2: {N_WAITING} calls to {path} hold {} KiB", grown / KIB);
+            let (before, before_data) = (program.resident_bytes(), program.data_bytes());
+            let content = vec![0x0a; sent_bytes];
+            for call in &mut calls {
+                call.send(&prefixed(0, declared_bytes, &content)).await;
+            }
+            connection.answer(path, &framed(b"")).await;
+            let grown = program.resident_bytes().saturating_sub(before);
+            let reserved = program.data_bytes().saturating_sub(before_data);
+            println!(
+                "E2: {N_WAITING} calls to {path}: {} KiB while idle, {} KiB more with {} KiB of messages, {} KiB reserved",
+                before.saturating_sub(empty) / KIB,
+                grown / KIB,
+                (N_WAITING * sent_bytes) as u64 / KIB,
+                reserved / KIB,
+            );
             let allowed = N_WAITING as u64 * (sent_bytes as u64 + 16 * KIB);
             assert!(grown <= allowed, "{grown} bytes held, {allowed} allowed");
+            // What is reserved and never written is not resident, and must not be there either.
+            assert!(reserved <= allowed, "{reserved} bytes reserved, {allowed} allowed");
             let ended = futures::future::join_all(calls.into_iter().map(harness::RawCall::answer));
             for answer in ended.await {
                 let problem = Problem::of(&answer.status());

@@ -14,8 +14,9 @@ use crate::{
 /// A flag and a length of four bytes stand before every message.
 const PREFIX_BYTES: usize = 5;
 
-/// What is reserved at once. With the codec's own 8 KiB it stays below the 16 KiB that a call may hold beside what came.
-const PIECE_BYTES: usize = 4 * 1024;
+/// What is reserved at once: as much as came, within these. With the codec's own 8 KiB and the call itself it stays below
+/// the 16 KiB that a call may hold beside what came.
+const PIECE_BYTES: [usize; 2] = [512, 4 * 1024];
 
 /// A message of which not everything came.
 #[derive(Debug, Default)]
@@ -68,7 +69,9 @@ impl Begun {
         while !bytes.is_empty() {
             let has_room = |it: &BytesMut| it.len() < it.capacity();
             if !self.pieces.back().is_some_and(has_room) {
-                let piece = BytesMut::with_capacity(PIECE_BYTES.min(n_missing));
+                let [least, most] = PIECE_BYTES;
+                let n_bytes = self.n_held.clamp(least, most).min(n_missing);
+                let piece = BytesMut::with_capacity(n_bytes);
                 self.pieces.push_back(piece);
             }
             let piece = self
