@@ -50,7 +50,7 @@ impl Drop for Seat {
 }
 
 /// What one subscriber was sent; written by it, read by the session's status.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(super) struct Tally {
     pub(super) name: String,
     pub(super) protocol: &'static str,
@@ -58,16 +58,36 @@ pub(super) struct Tally {
     pub(super) skipped_samples: AtomicU64,
     /// Sequence up to which it was served.
     pub(super) served_through: AtomicU64,
+    /// `LATEST`: sequence up to which samples were sent or counted as skipped. Others skip nothing: the last there is.
+    pub(super) counted_through: AtomicU64,
+}
+
+impl Default for Tally {
+    fn default() -> Self {
+        Self {
+            name: String::new(),
+            protocol: "",
+            sent_samples: AtomicU64::new(0),
+            skipped_samples: AtomicU64::new(0),
+            served_through: AtomicU64::new(0),
+            counted_through: AtomicU64::new(u64::MAX),
+        }
+    }
 }
 
 impl Tally {
     pub(super) fn status(&self, newest_sequence: u64) -> SubscriberStatus {
         let served_through = self.served_through.load(Ordering::Relaxed);
+        let counted_through = self.counted_through.load(Ordering::Relaxed);
+        // The newest may still be sent.
+        let passed_over = newest_sequence
+            .saturating_sub(counted_through)
+            .saturating_sub(1);
         SubscriberStatus {
             subscriber: self.name.clone(),
             protocol: self.protocol,
             sent_samples: self.sent_samples.load(Ordering::Relaxed),
-            skipped_samples: self.skipped_samples.load(Ordering::Relaxed),
+            skipped_samples: self.skipped_samples.load(Ordering::Relaxed) + passed_over,
             lag_frames: newest_sequence.saturating_sub(served_through),
         }
     }

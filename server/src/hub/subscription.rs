@@ -1,7 +1,7 @@
 //! One subscriber's way through a session's samples.
 //!
 //! `LATEST`: the newest unsent sample, against credits or at a pace; what is passed over is counted (CONTRACTS D-14 to
-//! D-16). `EVERY_FRAME`: everything from a position on, in bounded batches; falling out of the window ends it with the
+//! D-16), as soon as it can no longer be sent. `EVERY_FRAME`: everything from a position on, in bounded batches; falling out of the window ends it with the
 //! exact lost range (D-17, D-18). Both hear every state, and a heartbeat when nothing else comes (D-22, D-23).
 
 use std::{
@@ -169,6 +169,11 @@ impl Subscription {
         tally
             .served_through
             .store(served_through, Ordering::Relaxed);
+        if let Reading::Latest { sent_through, .. } = &reading {
+            tally
+                .counted_through
+                .store(*sent_through, Ordering::Relaxed);
+        }
         let id = hub.enlist(Arc::clone(&tally))?;
         Ok(Self {
             id,
@@ -201,9 +206,21 @@ impl Subscription {
         self.max_entries = n_entries.clamp(1, BATCH_ENTRIES);
     }
 
-    /// Samples that were passed over since the subscription began.
+    /// Samples that were passed over since the subscription began. The newest may still be sent, until the hub closes.
     pub fn skipped_samples(&self) -> u64 {
-        self.skipped_samples
+        self.skipped_so_far(&self.hub.shared())
+    }
+
+    fn skipped_so_far(&self, shared: &Shared) -> u64 {
+        let Reading::Latest { sent_through, .. } = &self.reading else {
+            return self.skipped_samples;
+        };
+        let unsent = shared
+            .window
+            .newest_sequence()
+            .saturating_sub(*sent_through);
+        let still_to_be_sent = u64::from(shared.closing.is_none());
+        self.skipped_samples + unsent.saturating_sub(still_to_be_sent)
     }
 
     /// Waits for what comes next. Nothing is lost when the future is dropped.
@@ -232,7 +249,7 @@ impl Subscription {
 
     fn heartbeat(&self) -> Update {
         Update {
-            skipped_samples: self.skipped_samples,
+            skipped_samples: self.skipped_samples(),
             state: Some(self.hub.stream_state(self.hub.state())),
             ..Update::default()
         }
@@ -270,7 +287,7 @@ impl Subscription {
             self.announced = true;
             update.state = Some(hub.stream_state(shared.state));
         }
-        update.skipped_samples = self.skipped_samples;
+        update.skipped_samples = self.skipped_so_far(&shared);
         if !update.is_empty() {
             return Some(Delivered::Update(update));
         }
@@ -318,9 +335,9 @@ impl Subscription {
                     self.tally
                         .skipped_samples
                         .store(self.skipped_samples, Ordering::Relaxed);
-                    self.tally
-                        .served_through
-                        .store(sample.sequence, Ordering::Relaxed);
+                    for through in [&self.tally.served_through, &self.tally.counted_through] {
+                        through.store(sample.sequence, Ordering::Relaxed);
+                    }
                     update.samples.push(Arc::clone(sample));
                 }
             }

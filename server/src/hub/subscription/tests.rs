@@ -138,6 +138,65 @@ async fn latest_gets_no_more_than_its_credits_and_then_the_newest() {
 }
 
 #[tokio::test(start_paused = true)]
+async fn what_is_passed_over_is_told_before_the_next_sample_and_at_the_end() {
+    let hub = hub();
+    let mut wall = subscribe(&hub, latest(1)).unwrap();
+    let mut every = subscribe(&hub, EVERY_FROM_NOW).unwrap();
+    publish(&hub, [1]);
+    assert_eq!(sequences(&update(&mut wall).await), [1]);
+    publish(&hub, 2..=50);
+    let heartbeat = update(&mut wall).await;
+    assert!(heartbeat.samples.is_empty());
+    // The newest, 50, may still be sent.
+    assert_eq!(heartbeat.skipped_samples, 48);
+    let statuses = hub.subscribers();
+    assert_eq!(statuses[0].skipped_samples, 48);
+    assert_eq!(statuses[1].skipped_samples, 0);
+    publish(&hub, 51..=60);
+    hub.announce(SessionState::Stale);
+    assert_eq!(update(&mut wall).await.skipped_samples, 58);
+    hub.close(Closing::Draining);
+    assert!(matches!(wall.next().await, Delivered::Closed(_)));
+    assert_eq!(wall.skipped_samples(), 59);
+    while let Delivered::Update(told) = every.next().await {
+        assert_eq!(told.skipped_samples, 0);
+    }
+    assert_eq!(every.skipped_samples(), 0);
+}
+
+proptest! {
+    /// Whatever is granted when: each sample was sent, was skipped, or is the newest and may still be sent.
+    #[test]
+    fn sent_and_skipped_add_up_to_what_was_published(
+        steps in prop::collection::vec((0_u64..5, 0_u32..3), 1..30),
+    ) {
+        let runtime = tokio::runtime::Builder::new_current_thread()
+            .enable_time()
+            .start_paused(true)
+            .build()
+            .unwrap();
+        runtime.block_on(async {
+            let hub = hub();
+            let mut wall = subscribe(&hub, latest(1)).unwrap();
+            update(&mut wall).await;
+            let (mut n_published, mut sent, mut n_sent) = (0, 0, 0);
+            for (n_frames, credits) in steps {
+                publish(&hub, n_published + 1..=n_published + n_frames);
+                n_published += n_frames;
+                wall.grant(credits);
+                let told = update(&mut wall).await;
+                for sequence in sequences(&told) {
+                    (sent, n_sent) = (sequence, n_sent + 1);
+                }
+                let pending = u64::from(sent < n_published);
+                assert_eq!(told.skipped_samples + n_sent + pending, n_published);
+                assert_eq!(hub.subscribers()[0].skipped_samples, told.skipped_samples);
+            }
+        });
+    }
+}
+
+#[tokio::test(start_paused = true)]
 async fn a_flood_of_credits_sends_no_sample_twice() {
     let hub = hub();
     let mut wall = subscribe(&hub, latest(u32::MAX)).unwrap();
