@@ -16,7 +16,8 @@ pub fn program(name: &str) -> PathBuf {
     let target = target_folder();
     let built = Command::new(env!("CARGO"))
         .current_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join(".."))
-        .args(["build", "--quiet", "--locked", "--bin", name])
+        // With the whole workspace, so that dependencies have the features they were built with before.
+        .args(["build", "--quiet", "--locked", "--workspace", "--bin", name])
         .arg("--target-dir")
         .arg(&target)
         .status()
