@@ -5,13 +5,17 @@
 
 use std::{fmt, str::FromStr};
 
+use base64::{Engine as _, engine::general_purpose::URL_SAFE_NO_PAD};
 use jsonwebtoken::{DecodingKey, Validation, dangerous::insecure_decode};
 use serde_json::{Map, Value};
 use x509_parser::{
     pem::Pem, prelude::FromDer as _, public_key::PublicKey, x509::SubjectPublicKeyInfo,
 };
 
-use crate::{Principal, Refused, Role, Scope, UnixTime, principal::Proof};
+use crate::{
+    Principal, Refused, Role, Scope, UnixTime,
+    principal::{Proof, is_shown_as_written},
+};
 
 /// Longest life of a signed token: from `iat` where it says so, and from now in any case.
 const MAX_LIFE_SECS: i64 = 24 * 3600;
@@ -174,7 +178,11 @@ impl Issuer {
         let subject = text("sub").filter(|it| is_subject(it));
         let subject = subject.ok_or(Refused::because("sub is missing or unusable"))?;
         Ok(Principal {
-            key: format!("issuer:{}#{subject}", self.iss),
+            // The first `#` ends the issuer, so that no subject reads like one of another issuer.
+            key: format!(
+                "issuer:{}#{subject}",
+                self.iss.replace('%', "%25").replace('#', "%23")
+            ),
             name: subject.to_owned(),
             role,
             scope: self.scope(claims, role)?,
@@ -212,15 +220,32 @@ pub(crate) fn authenticate(
     let claimed = insecure_decode::<Map<String, Value>>(token);
     let claimed =
         claimed.map_err(|_| Refused::because("neither a known token nor a signed one"))?;
+    if has_critical_extensions(token) {
+        return Err(Refused::because("the signed token has critical extensions"));
+    }
     let iss = claimed.claims.get("iss").and_then(Value::as_str);
-    let mut refused = Refused::because("no issuer of that name");
+    let mut refused = None;
     for issuer in issuers.iter().filter(|it| Some(it.iss.as_str()) == iss) {
         match issuer.verify(token, now) {
             Ok(principal) => return Ok(principal),
-            Err(error) => refused = error,
+            Err(error) => refused = Some(error),
         }
     }
-    Err(refused)
+    Err(refused.unwrap_or_else(|| {
+        // As much work as for an issuer that is known, so that the time does not say which are.
+        if let Some(any) = issuers.first() {
+            drop(any.verify(token, now));
+        }
+        Refused::because("no issuer of that name")
+    }))
+}
+
+/// Whether the header demands what is not understood here; such a token must be refused (RFC 7515, 4.1.11).
+fn has_critical_extensions(token: &[u8]) -> bool {
+    let header = token.split(|it| *it == b'.').next().unwrap_or_default();
+    let header = URL_SAFE_NO_PAD.decode(header).unwrap_or_default();
+    let header = serde_json::from_slice::<Map<String, Value>>(&header);
+    header.is_ok_and(|it| it.contains_key("crit"))
 }
 
 /// The expiry, when all times of the claims fit `now`.
@@ -263,7 +288,7 @@ fn secs(claims: &Map<String, Value>, claim: &str) -> Result<Option<i64>, Refused
 
 /// Shown to operators and written to logs, so nothing that would steer a terminal.
 fn is_subject(text: &str) -> bool {
-    !text.is_empty() && text.chars().count() <= MAX_SUBJECT && !text.chars().any(char::is_control)
+    !text.is_empty() && text.chars().count() <= MAX_SUBJECT && is_shown_as_written(text)
 }
 
 fn key_content(pem: &str, algorithm: Algorithm) -> Result<Vec<u8>, KeyError> {

@@ -27,7 +27,7 @@ mod token;
 mod token_file;
 mod unix_time;
 
-pub use certificate::CertificateRule;
+pub use certificate::{CertificateRule, CertificateSubject};
 pub use issuer::{Algorithm, Issuer};
 pub use principal::{Principal, Refused};
 pub use role::{Role, UnknownRole};

@@ -1,12 +1,13 @@
 //! Who a caller turned out to be.
 
-use crate::{Role, Scope, TokenHash, UnixTime};
+use crate::{CertificateSubject, Role, Scope, TokenHash, UnixTime};
 
 /// A proven identity and its rights.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Principal {
     /// Stable identity, different for every token, subject of an issuer, and certificate: `token:ID`,
-    /// `issuer:ISS#SUBJECT`, `certificate:SUBJECT`. Two callers are the same principal when this is the same.
+    /// `issuer:ISS#SUBJECT` (with `%` and `#` of the issuer as `%25` and `%23`), `certificate:SUBJECT` (escaped, RFC 4514).
+    /// Two callers are the same principal when this is the same.
     pub key: String,
     /// For people: the token's name, the token's `sub`, or the certificate's subject.
     pub name: String,
@@ -30,7 +31,7 @@ pub(crate) enum Proof {
     /// A signature by an issuer; its claims stand until they expire.
     Issuer { iss: String, key: Vec<u8> },
     /// A client certificate that the handshake accepted.
-    Certificate { subject: String },
+    Certificate { subject: CertificateSubject },
 }
 
 /// The proof that a caller gave proves nothing; callers learn no more than that (BAD_INPUT I1).
@@ -50,4 +51,14 @@ impl Refused {
             why,
         }
     }
+}
+
+/// Whether a name that others chose is shown as it is: without characters that steer a terminal, break a line, or turn
+/// the direction of what is around them.
+pub(crate) fn is_shown_as_written(text: &str) -> bool {
+    let steers = |it: char| {
+        it.is_control()
+            || matches!(it, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
+    };
+    !text.chars().any(steers)
 }

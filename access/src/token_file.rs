@@ -19,7 +19,7 @@
 //! roles = ["publisher", "renderer"]   # left out: all but operator
 //!
 //! [[certificate]]                     # of clients, when the server asks for them
-//! subject = "renderer-1"              # common name, or the whole subject
+//! common_name = "renderer-1"          # or the whole subject: subject = "O=Stage, CN=renderer-1"
 //! role = "renderer"
 //! sessions = ["*"]
 //! ```
@@ -30,7 +30,10 @@ use subtle::{Choice, ConditionallySelectable as _};
 
 use crate::{
     CertificateRule, Issuer, MAX_PRESENTED_BYTES, NoEntropy, Principal, Refused, Role, Scope,
-    Token, TokenHash, UnixTime, certificate, issuer, principal::Proof, scope::is_id, token::random,
+    Token, TokenHash, UnixTime, certificate, issuer,
+    principal::{Proof, is_shown_as_written},
+    scope::is_id,
+    token::random,
 };
 
 mod text;
@@ -323,7 +326,7 @@ impl TokenFile {
             return Err(CreateError::Exists);
         }
         let n_characters = record.name.chars().count();
-        if !(1..=MAX_NAME).contains(&n_characters) || record.name.chars().any(char::is_control) {
+        if !(1..=MAX_NAME).contains(&n_characters) || !is_shown_as_written(&record.name) {
             return Err(CreateError::Name);
         }
         if record.role == Role::Operator && !record.scope.is_all() {

@@ -190,8 +190,10 @@ fn a_scope_is_a_list_or_words_and_never_nothing() {
             "{sessions}"
         );
     }
-    let hostile = signer.sign(&json!({ "sub": "a\u{1b}[31m" }));
-    assert_eq!(why(&issuer, &hostile, NOW), "sub is missing or unusable");
+    for sub in ["a\u{1b}[31m", "a\u{202e}b", "a\u{2028}b"] {
+        let hostile = signer.sign(&json!({ "sub": sub }));
+        assert_eq!(why(&issuer, &hostile, NOW), "sub is missing or unusable");
+    }
 }
 
 #[test]
@@ -228,4 +230,28 @@ fn a_principal_stands_while_its_issuer_and_its_key_do() {
     assert!(!file.still_stands(&principal, UnixTime::from_secs(NOW.secs() + 600)));
     let rotated = crate::TokenFile::parse(&entry(&Signer::ed25519().issuer())).unwrap();
     assert!(!rotated.still_stands(&principal, NOW));
+}
+
+#[test]
+fn what_a_header_calls_critical_is_not_understood() {
+    let signer = Signer::ed25519();
+    let mut header = Header::new(jsonwebtoken::Algorithm::EdDSA);
+    header.extras.insert("crit".to_owned(), json!(["b64"]));
+    let key = EncodingKey::from_ed_der(&signer.key.serialize_der());
+    let token = encode(&header, &claims(&json!({})), &key).unwrap();
+    let critical = "the signed token has critical extensions";
+    assert_eq!(why(&signer.issuer(), &token, NOW), critical);
+}
+
+#[test]
+fn a_principal_of_one_issuer_is_none_of_another() {
+    let signer = Signer::ed25519();
+    let key = |iss: &str, sub: &str| {
+        let pem = signer.key.public_key_pem();
+        let issuer = Issuer::new(iss, "frontalis", Algorithm::EdDsa, &pem).unwrap();
+        let token = signer.sign(&json!({ "iss": iss, "sub": sub }));
+        authenticate(&[issuer], token.as_bytes(), NOW).unwrap().key
+    };
+    assert_ne!(key("a#b", "c"), key("a", "b#c"));
+    assert_ne!(key("a%23b", "c"), key("a#b", "c"));
 }

@@ -62,6 +62,23 @@ fn a_changed_right_or_a_removed_entry_ends_what_rests_on_it() {
 }
 
 #[test]
+fn a_rule_for_certificates_says_in_one_way_whom_it_means() {
+    let rest = "role = \"renderer\"\nsessions = [\"*\"]\n";
+    let entry = |names: &str| format!("[[certificate]]\n{names}\n{rest}");
+    for names in ["common_name = \"a\"", "subject = \"O=Stage, CN=a\""] {
+        let file = TokenFile::parse(&entry(names)).unwrap();
+        assert_eq!(TokenFile::parse(&file.to_toml()), Ok(file));
+    }
+    let one = "exactly one of common_name and subject";
+    for names in ["", "common_name = \"a\"\nsubject = \"CN=a\""] {
+        let message = refusal(&entry(names));
+        assert!(message.contains(one), "{message}");
+    }
+    let empty = refusal(&entry("subject = \"\""));
+    assert!(empty.contains("subject is empty"), "{empty}");
+}
+
+#[test]
 fn a_file_that_is_wrong_says_what_and_where() {
     let mut file = TokenFile::default();
     file.create(publisher(), NOW).unwrap();
@@ -160,8 +177,10 @@ fn ids_are_unique_and_what_cannot_be_is_not_made() {
     assert_eq!(file.create(images, NOW), Err(CreateError::Images));
     let narrow = NewToken::new("x", Role::Operator, "a".parse().unwrap());
     assert_eq!(file.create(narrow, NOW), Err(CreateError::OperatorScope));
-    let hostile = NewToken::new("\u{1b}[31m", Role::Viewer, Scope::all());
-    assert_eq!(file.create(hostile, NOW), Err(CreateError::Name));
+    for name in ["\u{1b}[31m", "a\u{202e}b"] {
+        let hostile = NewToken::new(name, Role::Viewer, Scope::all());
+        assert_eq!(file.create(hostile, NOW), Err(CreateError::Name));
+    }
     assert_eq!(file.tokens().len(), 1);
     assert_eq!(file.revoke("nobody"), Err(NoSuchToken));
 }
@@ -171,7 +190,9 @@ fn any_token() -> impl Strategy<Value = (NewToken, [u8; 32])> {
     let entries = proptest::collection::vec("[a-z0-9][a-z0-9_-]{0,10}\\*?", 1..4);
     let expiry = proptest::option::of(1_i64..1_000_000_000);
     let rights = (role, entries, any::<bool>());
-    ("[^\\p{Cc}]{1,64}", rights, expiry, any::<[u8; 32]>()).prop_map(
+    // Neither what steers a terminal nor what breaks a line or turns its direction.
+    let name = r"[^\p{Cc}\x{61c}\x{200e}\x{200f}\x{2028}-\x{202e}\x{2066}-\x{2069}]{1,64}";
+    (name, rights, expiry, any::<[u8; 32]>()).prop_map(
         |(name, (role, entries, images), expiry, random)| {
             let is_operator = role == Role::Operator;
             let scope = Scope::new(&entries).unwrap();

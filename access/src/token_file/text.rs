@@ -7,8 +7,8 @@ use toml::{Spanned, value::Datetime};
 
 use super::{CreateError, MAX_TOKENS, TokenFile, TokenRecord};
 use crate::{
-    Algorithm, CertificateRule, Issuer, Role, Scope, ScopeError, TokenHash, UnixTime,
-    issuer::KeyError,
+    Algorithm, CertificateRule, CertificateSubject, Issuer, Role, Scope, ScopeError, TokenHash,
+    UnixTime, issuer::KeyError,
 };
 
 /// Most issuers of a file, since a token may be tried against those of one name; and most rules for certificates.
@@ -81,6 +81,9 @@ pub enum EntryError {
     /// The key of an issuer.
     #[error(transparent)]
     Key(#[from] KeyError),
+    /// A certificate is named in one way.
+    #[error("exactly one of common_name and subject says whose certificate it is")]
+    Subject,
     /// A text that must not be empty.
     #[error("{key} is empty")]
     Empty {
@@ -131,7 +134,8 @@ struct RawIssuer {
 #[derive(Deserialize)]
 #[serde(deny_unknown_fields)]
 struct RawCertificate {
-    subject: String,
+    common_name: Option<String>,
+    subject: Option<String>,
     role: String,
     sessions: Option<Vec<String>>,
     #[serde(default)]
@@ -234,19 +238,28 @@ fn issuer(raw: RawIssuer) -> Result<Issuer, EntryError> {
 }
 
 fn certificate(raw: RawCertificate) -> Result<CertificateRule, EntryError> {
-    if raw.subject.is_empty() {
-        return Err(EntryError::Empty { key: "subject" });
-    }
+    let subject = match (raw.common_name, raw.subject) {
+        (Some(name), None) => CertificateSubject::CommonName(filled("common_name", name)?),
+        (None, Some(whole)) => CertificateSubject::Whole(filled("subject", whole)?),
+        _ => return Err(EntryError::Subject),
+    };
     let role = role(&raw.role)?;
     if raw.images && role != Role::Operator {
         return Err(CreateError::Images.into());
     }
     Ok(CertificateRule {
-        subject: raw.subject,
+        subject,
         role,
         scope: scope(role, raw.sessions.as_deref())?,
         images: raw.images,
     })
+}
+
+fn filled(key: &'static str, text: String) -> Result<String, EntryError> {
+    if text.is_empty() {
+        return Err(EntryError::Empty { key });
+    }
+    Ok(text)
 }
 
 fn role(text: &str) -> Result<Role, EntryError> {
@@ -306,7 +319,11 @@ pub(super) fn print(file: &TokenFile) -> String {
     }
     for rule in &file.certificates {
         text.push_str("\n[[certificate]]\n");
-        put(&mut text, "subject", &quoted(&rule.subject));
+        let (key, name) = match &rule.subject {
+            CertificateSubject::CommonName(name) => ("common_name", name),
+            CertificateSubject::Whole(whole) => ("subject", whole),
+        };
+        put(&mut text, key, &quoted(name));
         put_rights(&mut text, rule.role, &rule.scope, rule.images);
     }
     text

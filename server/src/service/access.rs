@@ -28,11 +28,12 @@ use self::{attempts::Attempts, presented::Presented, token_source::TokenSource};
 use super::{
     audit::{Audit, Entry},
     grpc::status::Refusal,
+    listener::PeerCertificate,
     peer::Peer,
 };
 use crate::{clock::wall_now, config::Limits, telemetry::Metrics};
 
-pub use authenticate::authenticate;
+pub use authenticate::{authenticate, while_valid_grpc};
 pub use caller::{Action, Caller, unauthenticated};
 pub use token_source::{TokenSourceError, follow};
 
@@ -89,15 +90,19 @@ impl Access {
     ///
     /// `UNAUTHENTICATED`, the same for every reason; `RESOURCE_EXHAUSTED` after too many of them.
     fn caller(&self, headers: &HeaderMap, extensions: &Extensions) -> Result<Caller, Status> {
+        let certificate = extensions.get::<PeerCertificate>();
+        if certificate.is_some_and(|it| !it.is_believed()) {
+            let refused = not_believed();
+            return Err(self.refuse(refused, extensions));
+        }
         let Some(source) = &self.0.tokens else {
-            return Ok(Caller::anyone());
+            return Ok(Caller::anyone().behind(certificate.cloned()));
         };
         let (file, now) = (source.current(), UnixTime::from(wall_now()));
-        let certificate = extensions.get::<super::listener::PeerCertificate>();
         let proven = match (presented::token(headers), certificate) {
             (Presented::Token(token), _) => file.authenticate(token, now),
             (Presented::Nothing, Some(certificate)) => {
-                file.authenticate_certificate(&certificate.0, now)
+                file.authenticate_certificate(certificate.der(), now)
             }
             (found, _) => {
                 // Looked up all the same, so that no answer comes sooner than another.
@@ -105,7 +110,10 @@ impl Access {
             }
         };
         match proven {
-            Ok(principal) => Ok(Caller::known(principal, self.clone())),
+            Ok(principal) => {
+                let caller = Caller::known(principal, self.clone());
+                Ok(caller.behind(certificate.cloned()))
+            }
             Err(refused) => Err(self.refuse(refused, extensions)),
         }
     }
@@ -118,7 +126,7 @@ impl Access {
         if let Err(wait) = self.count_failure(&refused, extensions) {
             audit.suppressed();
             return too_many(
-                "auth failures",
+                "limits.auth_failures_per_minute",
                 self.0.failures_by_address.per_minute(),
                 wait,
             );
@@ -169,7 +177,13 @@ impl Caller {
         }
         let creations = &known.access.0.creations;
         let counted = creations.count(known.principal.key.clone());
-        counted.map_err(|wait| too_many("session creations", creations.per_minute(), wait))
+        counted.map_err(|wait| {
+            too_many(
+                "limits.session_creations_per_minute",
+                creations.per_minute(),
+                wait,
+            )
+        })
     }
 }
 
@@ -178,6 +192,13 @@ fn time_left(principal: &Principal) -> Option<Duration> {
     let at = principal.expire_time?;
     let left = at.secs().saturating_sub(UnixTime::from(wall_now()).secs());
     Some(Duration::from_secs(u64::try_from(left).unwrap_or(0)))
+}
+
+fn not_believed() -> Refused {
+    Refused {
+        token_id: None,
+        why: "the connection's certificate is no longer believed",
+    }
 }
 
 fn no_token(found: Presented<'_>) -> Refused {
@@ -204,7 +225,7 @@ fn network_of(address: IpAddr) -> IpAddr {
 }
 
 fn too_many(what: &'static str, per_minute: u32, wait: Duration) -> Status {
-    let message = format!("{what} are limited to {per_minute} a minute");
+    let message = format!("{what} is {per_minute}, and that many came in a minute");
     Refusal::new(Code::ResourceExhausted, "RATE_LIMIT", message)
         .with("limit", &what)
         .with("value", &per_minute)

@@ -17,7 +17,7 @@ use tonic_web::GrpcWebLayer;
 use tower_http::catch_panic::CatchPanicLayer;
 
 use super::{
-    access::{Access, authenticate},
+    access::{Access, authenticate, while_valid_grpc},
     calls::{self, Calls},
     deadline,
     grpc::{
@@ -126,6 +126,7 @@ pub async fn router(
         .prepare()
         .into_axum_router()
         .reset_fallback()
+        .layer(middleware::from_fn(while_valid_grpc))
         .layer(middleware::from_fn_with_state(rules, messages::whole))
         .layer(CatchPanicLayer::custom(GrpcPanic(metrics.clone())))
         .layer(middleware::map_response_with_state(

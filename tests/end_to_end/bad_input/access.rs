@@ -1,6 +1,8 @@
 //! Rows I1 to I4: callers who cannot say who they are, who may not, who ask for what is not theirs, and whose proof ends.
 
+mod certificates;
 mod proofs;
+mod stalled;
 mod streams;
 
 use std::time::Duration;

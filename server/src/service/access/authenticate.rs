@@ -1,11 +1,17 @@
 //! The layer that asks every request who sent it, whatever door it came through.
 
+use std::convert::Infallible;
+
 use axum::{
+    body::Body,
     extract::{Request, State},
-    http::{HeaderValue, StatusCode, header},
+    http::{HeaderMap, HeaderValue, StatusCode, header},
     middleware::Next,
     response::{IntoResponse as _, Response},
 };
+use futures::{StreamExt as _, TryStreamExt as _};
+use http_body_util::{BodyStream, StreamBody};
+use hyper::body::Frame;
 use tonic::Status;
 
 use super::{Access, Caller};
@@ -41,6 +47,36 @@ pub async fn authenticate(
         }
         Err(status) => refuse(&request, status),
     }
+}
+
+/// How the paths of the services begin that are not this project's: health, reflection.
+const FOREIGN: &str = "/grpc.";
+
+/// Ends the answers of services that do not know callers, as the project's own end theirs: watching the health, asking
+/// for descriptors.
+pub async fn while_valid_grpc(request: Request, next: Next) -> Response {
+    let is_foreign = request.uri().path().starts_with(FOREIGN);
+    let caller = Caller::of(request.extensions());
+    let response = next.run(request).await;
+    if !is_foreign {
+        return response;
+    }
+    response.map(|body| {
+        let frames = BodyStream::new(body);
+        let frames = frames.map_err(|error| Status::from_error(error.into()));
+        let frames = caller.while_valid(frames).map(|frame| {
+            Ok::<_, Infallible>(frame.unwrap_or_else(|status| Frame::trailers(trailers(&status))))
+        });
+        Body::new(StreamBody::new(frames))
+    })
+}
+
+fn trailers(status: &Status) -> HeaderMap {
+    let mut trailers = HeaderMap::new();
+    if let Err(error) = status.add_header(&mut trailers) {
+        tracing::error!(%error, "a status cannot be written as trailers");
+    }
+    trailers
 }
 
 fn refuse(request: &Request, status: Status) -> Response {

@@ -10,7 +10,10 @@ use super::{Access, policy};
 use crate::{
     catalogue::CatalogueError,
     name::SessionId,
-    service::grpc::status::{Refusal, refuse},
+    service::{
+        grpc::status::{Refusal, refuse},
+        listener::PeerCertificate,
+    },
 };
 
 pub use super::policy::Action;
@@ -20,7 +23,11 @@ const ANYONE: &str = "anyone";
 
 /// Who sent a request; cheap to clone. The default is nobody, who may do nothing: a door that forgets to ask stays shut.
 #[derive(Clone, Debug, Default)]
-pub struct Caller(Who);
+pub struct Caller {
+    who: Who,
+    /// What the connection's client showed; whoever comes over the connection goes with it.
+    certificate: Option<PeerCertificate>,
+}
 
 #[derive(Clone, Debug, Default)]
 enum Who {
@@ -29,6 +36,12 @@ enum Who {
     /// Whoever reaches the port, where there is no token file.
     Anyone,
     Known(Arc<Known>),
+}
+
+/// What may stop to hold while a stream goes on.
+pub(super) struct Standing {
+    pub(super) known: Option<Arc<Known>>,
+    pub(super) certificate: Option<PeerCertificate>,
 }
 
 #[derive(Debug)]
@@ -45,15 +58,39 @@ impl Caller {
 
     /// Whoever reaches a port that asks nobody; may do everything.
     pub fn anyone() -> Self {
-        Self(Who::Anyone)
+        Self {
+            who: Who::Anyone,
+            certificate: None,
+        }
     }
 
     pub(super) fn known(principal: Principal, access: Access) -> Self {
-        Self(Who::Known(Arc::new(Known { principal, access })))
+        Self {
+            who: Who::Known(Arc::new(Known { principal, access })),
+            certificate: None,
+        }
+    }
+
+    /// The same, over a connection whose client showed this.
+    pub(super) fn behind(self, certificate: Option<PeerCertificate>) -> Self {
+        Self {
+            certificate,
+            ..self
+        }
+    }
+
+    /// What its rights rest on; none when nothing of it can end.
+    pub(super) fn standing(&self) -> Option<Standing> {
+        let standing = Standing {
+            known: self.as_known().cloned(),
+            certificate: self.certificate.clone(),
+        };
+        let can_end = standing.known.is_some() || standing.certificate.is_some();
+        can_end.then_some(standing)
     }
 
     pub(super) fn as_known(&self) -> Option<&Arc<Known>> {
-        match &self.0 {
+        match &self.who {
             Who::Known(known) => Some(known),
             Who::Anyone | Who::Nobody => None,
         }
@@ -66,7 +103,7 @@ impl Caller {
 
     /// Tells callers apart: the same text is the same principal.
     pub fn key(&self) -> &str {
-        match &self.0 {
+        match &self.who {
             Who::Nobody => "nobody",
             Who::Anyone => ANYONE,
             Who::Known(known) => &known.principal.key,
@@ -75,7 +112,7 @@ impl Caller {
 
     /// What people call it.
     pub fn name(&self) -> &str {
-        match &self.0 {
+        match &self.who {
             Who::Nobody => "nobody",
             Who::Anyone => ANYONE,
             Who::Known(known) => &known.principal.name,
@@ -88,7 +125,7 @@ impl Caller {
     ///
     /// `PERMISSION_DENIED ROLE`; nobody: `UNAUTHENTICATED`.
     pub fn may(&self, action: Action) -> Result<(), Status> {
-        match &self.0 {
+        match &self.who {
             Who::Nobody => Err(unauthenticated()),
             Who::Anyone => Ok(()),
             Who::Known(known) if policy::allows(known.principal.role, action) => Ok(()),
@@ -112,7 +149,7 @@ impl Caller {
 
     /// Whether a session is in its scope.
     pub fn sees(&self, session: &SessionId) -> bool {
-        match &self.0 {
+        match &self.who {
             Who::Nobody => false,
             Who::Anyone => true,
             Who::Known(known) => known.principal.scope.contains(session.as_str()),
@@ -121,7 +158,7 @@ impl Caller {
 
     /// Whether every session is in its scope.
     pub fn sees_all(&self) -> bool {
-        match &self.0 {
+        match &self.who {
             Who::Nobody => false,
             Who::Anyone => true,
             Who::Known(known) => known.principal.scope.is_all(),
@@ -130,7 +167,7 @@ impl Caller {
 
     /// Whether it sees every actor, and not those of its sessions alone.
     pub fn sees_all_actors(&self) -> bool {
-        match &self.0 {
+        match &self.who {
             Who::Nobody => false,
             Who::Anyone => true,
             Who::Known(known) => known.principal.role == Role::Operator,
@@ -145,7 +182,7 @@ impl Caller {
     /// the scope does not say how it shall begin.
     pub fn may_create(&self, session: Option<&SessionId>) -> Result<&str, Status> {
         self.may(Action::CreateSession)?;
-        let Who::Known(known) = &self.0 else {
+        let Who::Known(known) = &self.who else {
             return Ok("");
         };
         let scope = &known.principal.scope;

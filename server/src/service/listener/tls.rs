@@ -1,9 +1,11 @@
 //! The port's certificate and whom it believes (CONTRACTS S-2), read again when the files change.
 //!
-//! TLS 1.3 and 1.2 with `h2` and `http/1.1`. New connections take what was read last; open ones keep what they began
-//! with. Files that do not fit together change nothing: they are logged, counted, and looked at again.
+//! TLS 1.3 and 1.2 with `h2` and `http/1.1`. New connections take what was read last; open ones keep the keys they began
+//! with, but the certificate of their client is judged anew: one that was revoked since, or whose authority is no longer
+//! believed, proves nothing any more. Files that do not fit together change nothing: they are logged, counted, and looked at again.
 
 mod files;
+mod peer_certificate;
 mod server_config;
 
 use std::{
@@ -12,7 +14,7 @@ use std::{
     time::Duration,
 };
 
-use rustls::{AlertDescription, CertificateError, ServerConfig, ServerConnection};
+use rustls::{AlertDescription, CertificateError, ServerConfig};
 use tokio::{
     io::{AsyncRead, AsyncWrite},
     time::timeout,
@@ -27,17 +29,8 @@ use crate::{
 };
 use files::Files;
 pub use files::TlsError;
-
-/// The certificate of a client, which this server's authorities vouch for; an extension of each of its requests.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct PeerCertificate(pub Arc<[u8]>);
-
-impl PeerCertificate {
-    fn of(connection: &ServerConnection) -> Option<Self> {
-        let chain = connection.peer_certificates()?;
-        chain.first().map(|it| Self(Arc::from(it.as_ref())))
-    }
-}
+pub use peer_certificate::PeerCertificate;
+use server_config::Judge;
 
 /// What new connections are answered with; cheap to clone, clones share it.
 #[derive(Clone)]
@@ -52,6 +45,7 @@ struct Inner {
 struct Loaded {
     fingerprint: u64,
     server: Arc<ServerConfig>,
+    judge: Judge,
     /// Names that the certificate vouches for, in small letters.
     names: Vec<String>,
 }
@@ -90,7 +84,7 @@ impl Tls {
         let acceptor = TlsAcceptor::from(self.current().server.clone());
         match timeout(within, acceptor.accept(stream)).await {
             Ok(Ok(stream)) => {
-                let certificate = PeerCertificate::of(stream.get_ref().1);
+                let certificate = PeerCertificate::of(self, stream.get_ref().1);
                 Ok((stream, certificate))
             }
             Ok(Err(error)) => Err(Handshake::of(&error)),
@@ -184,9 +178,11 @@ impl Look {
 }
 
 fn load(files: &Files) -> Result<Loaded, TlsError> {
+    let (server, judge) = server_config::build(files)?;
     Ok(Loaded {
         fingerprint: files.fingerprint(),
-        server: Arc::new(server_config::build(files)?),
+        server: Arc::new(server),
+        judge,
         names: files.names()?,
     })
 }

@@ -13,16 +13,20 @@ use super::files::{CERTIFICATE, Content, Files, TlsError};
 /// What is spoken inside, the better one first.
 const PROTOCOLS: [&[u8]; 2] = [b"h2", b"http/1.1"];
 
-pub(super) fn build(files: &Files) -> Result<ServerConfig, TlsError> {
+/// The judge of client certificates, where they are asked for.
+pub(super) type Judge = Option<Arc<dyn ClientCertVerifier>>;
+
+pub(super) fn build(files: &Files) -> Result<(ServerConfig, Judge), TlsError> {
     let provider = Arc::new(ring::default_provider());
     let refused = |cause| refused(files, cause);
     let builder = ServerConfig::builder_with_provider(provider.clone())
         .with_safe_default_protocol_versions()
         .map_err(refused)?;
-    let builder = match &files.client_ca {
-        Some(authorities) => {
-            builder.with_client_cert_verifier(verifier(files, authorities, provider)?)
-        }
+    let authorities = files.client_ca.as_ref();
+    let judge = authorities.map(|it| verifier(files, it, provider));
+    let judge = judge.transpose()?;
+    let builder = match &judge {
+        Some(judge) => builder.with_client_cert_verifier(Arc::clone(judge)),
         None => builder.with_no_client_auth(),
     };
     let mut server = builder
@@ -33,7 +37,7 @@ pub(super) fn build(files: &Files) -> Result<ServerConfig, TlsError> {
         // A resumed session would bring back a certificate that may have expired or been revoked since.
         server.session_storage = Arc::new(NoServerSessionStorage {});
     }
-    Ok(server)
+    Ok((server, judge))
 }
 
 fn verifier(
