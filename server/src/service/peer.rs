@@ -5,7 +5,7 @@
 use std::net::SocketAddr;
 
 use axum::extract::ConnectInfo;
-use http::Extensions;
+use http::{Extensions, HeaderMap, HeaderValue, header};
 
 use super::access::Caller;
 
@@ -23,9 +23,30 @@ pub enum Door {
     Sse,
     /// Plain HTTP with JSON.
     Http,
+    /// A TLS handshake, before anything was asked.
+    Handshake,
 }
 
 impl Door {
+    /// The door that a request is on its way to, as its headers say.
+    pub fn of(headers: &HeaderMap) -> Self {
+        let begins = |name, with: &[u8]| {
+            let value: Option<&HeaderValue> = headers.get(name);
+            value.is_some_and(|it| it.as_bytes().starts_with(with))
+        };
+        if begins(header::CONTENT_TYPE, b"application/grpc-web") {
+            Self::GrpcWeb
+        } else if begins(header::CONTENT_TYPE, b"application/grpc") {
+            Self::Grpc
+        } else if headers.contains_key(header::SEC_WEBSOCKET_KEY) {
+            Self::WebSocket
+        } else if begins(header::ACCEPT, b"text/event-stream") {
+            Self::Sse
+        } else {
+            Self::Http
+        }
+    }
+
     /// As `SubscriberStatus.protocol` says it.
     pub fn name(self) -> &'static str {
         match self {
@@ -34,6 +55,7 @@ impl Door {
             Self::WebSocket => "websocket",
             Self::Sse => "sse",
             Self::Http => "http",
+            Self::Handshake => "tls",
         }
     }
 }
@@ -64,5 +86,29 @@ impl Peer {
     pub fn address_name(&self) -> String {
         self.address
             .map_or_else(|| "unnamed".to_owned(), |it| it.to_string())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn headers_say_which_door_a_request_is_on_its_way_to() {
+        let door = |name, value| {
+            let mut headers = HeaderMap::new();
+            headers.insert(name, HeaderValue::from_static(value));
+            Door::of(&headers)
+        };
+        let kind = header::CONTENT_TYPE;
+        assert_eq!(door(kind.clone(), "application/grpc"), Door::Grpc);
+        assert_eq!(
+            door(kind.clone(), "application/grpc-web-text"),
+            Door::GrpcWeb
+        );
+        assert_eq!(door(kind, "application/json"), Door::Http);
+        assert_eq!(door(header::SEC_WEBSOCKET_KEY, "x"), Door::WebSocket);
+        assert_eq!(door(header::ACCEPT, "text/event-stream"), Door::Sse);
+        assert_eq!(Door::of(&HeaderMap::new()), Door::Http);
     }
 }

@@ -15,7 +15,7 @@ use hyper::body::Frame;
 use tonic::Status;
 
 use super::{Access, Caller};
-use crate::service::http::refuse_in_kind;
+use crate::service::{http::refuse_in_kind, peer::Door};
 
 /// What is told to everybody: whether the server lives, what it speaks, and how that is read. None of it depends on what
 /// the server holds.
@@ -40,6 +40,8 @@ pub async fn authenticate(
     if OPEN.contains(&path) || path.starts_with(OPEN_BELOW) {
         return next.run(request).await;
     }
+    let door = Door::of(request.headers());
+    request.extensions_mut().insert(door);
     match access.caller(request.headers(), request.extensions()) {
         Ok(caller) => {
             request.extensions_mut().insert::<Caller>(caller);

@@ -30,7 +30,7 @@ use crate::{
     config::Config,
     service::{
         audit::{Audit, Entry},
-        peer::Peer,
+        peer::{Door, Peer},
     },
     shutdown::Phases,
     telemetry::Metrics,
@@ -133,6 +133,7 @@ impl Connections {
             Handshake::Certificate(why) => {
                 let peer = Peer {
                     address: Some(peer),
+                    door: Door::Handshake,
                     ..Peer::default()
                 };
                 self.audit
