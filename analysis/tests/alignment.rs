@@ -123,7 +123,7 @@ fn aligned(
 }
 
 #[test]
-fn a_mirrored_face_is_refused() {
+fn a16_a_mirrored_face_is_refused() {
     let mirrored = aligned(
         |it| PerformancePoint(Point3::new(-it.0.x, it.0.y, it.0.z)),
         LengthUnit::Centimeter,
@@ -158,7 +158,7 @@ fn identical_markers_are_refused() {
 }
 
 #[test]
-fn a_region_with_fewer_than_four_markers_is_refused_with_the_missing_ones() {
+fn c5_a_region_with_fewer_than_four_markers_is_refused_with_the_missing_ones() {
     let actor = reference_face::actor();
     let mut neutral = neutral_of(&actor, 0.0, 1);
     for (marker, position) in actor.markers().iter().zip(&mut neutral.positions) {
@@ -175,7 +175,7 @@ fn a_region_with_fewer_than_four_markers_is_refused_with_the_missing_ones() {
 }
 
 #[test]
-fn a_marker_never_seen_is_left_out_and_the_rest_aligns() {
+fn c5_a_marker_never_seen_is_left_out_and_the_rest_aligns() {
     let actor = reference_face::actor();
     let mut neutral = neutral_of(&actor, 0.0, 1);
     neutral.positions[4] = None;

@@ -236,7 +236,7 @@ fn a_frame_without_markers_is_held_and_counted() {
 type Spoil = fn(PerformancePoint) -> PerformancePoint;
 
 #[test]
-fn markers_on_a_point_a_line_or_a_plane_or_mirrored_are_held() {
+fn a14_markers_on_a_point_a_line_or_a_plane_or_mirrored_are_held() {
     let mut performance = Performance::of(&actor(), Stage::STILL);
     let shapes: [Spoil; 4] = [
         |_| PerformancePoint::new(1.0, 2.0, 3.0),

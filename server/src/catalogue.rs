@@ -193,7 +193,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_second_server_on_the_same_directory_is_refused() {
+    fn h10_a_second_server_on_the_same_directory_is_refused() {
         let dir = tempfile::tempdir().unwrap();
         let first = Catalogue::open(dir.path()).unwrap();
         let second = Catalogue::open(dir.path());

@@ -150,7 +150,7 @@ fn the_documented_configuration_is_checked_and_printed() {
 }
 
 #[test]
-fn a_second_server_on_the_same_data_is_refused_and_the_first_ends_with_zero_on_sigterm() {
+fn h10_a_second_server_on_the_same_data_is_refused_and_the_first_ends_with_zero_on_sigterm() {
     let dir = tempfile::tempdir().unwrap();
     let data_dir = dir.path().to_str().unwrap();
     let (mut first, address) = start(data_dir);

@@ -6,6 +6,7 @@ mod access;
 mod actor_packages;
 mod cancel;
 mod connections;
+mod documented;
 mod http1;
 mod http2;
 mod http_bodies;

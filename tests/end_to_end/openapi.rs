@@ -123,3 +123,26 @@ fn clients() -> PathBuf {
 fn repository() -> &'static Path {
     Path::new(env!("CARGO_MANIFEST_DIR")).parent().unwrap()
 }
+
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn the_index_names_every_operation() {
+    let server = TestServer::start().await;
+    let index = http_get(&server, "/").await;
+    let document = http_get(&server, "/openapi.json").await.json();
+    let mut n_operations = 0;
+    for (path, operations) in document["paths"].as_object().unwrap() {
+        for method in operations.as_object().unwrap().keys() {
+            let line = format!("{} {path}", method.to_uppercase());
+            let is_line = |it: &str| it.split('?').next() == Some(&line);
+            assert!(
+                index.text().lines().any(is_line),
+                "{line}: {}",
+                index.text()
+            );
+            n_operations += 1;
+        }
+    }
+    assert!(n_operations >= 20, "{n_operations}");
+    println!("{}", index.text());
+    server.stop().await;
+}

@@ -60,14 +60,14 @@ mod tests {
     }
 
     #[test]
-    fn the_last_frame_of_a_day_occurs_and_the_next_does_not() {
+    fn a25_the_last_frame_of_a_day_occurs_and_the_next_does_not() {
         assert!(at(23, 59, 59, 29).checked().is_some());
         assert!(at(25, 0, 0, 0).checked().is_none());
         assert!(at(23, 59, 59, 30).checked().is_none());
     }
 
     #[test]
-    fn dropped_numbers_do_not_occur() {
+    fn a25_dropped_numbers_do_not_occur() {
         assert!(at(1, 1, 0, 0).checked().is_none());
         assert!(at(1, 1, 0, 1).checked().is_none());
         assert!(at(1, 1, 0, 2).checked().is_some());
@@ -93,7 +93,7 @@ mod tests {
     }
 
     #[test]
-    fn a_rate_of_nothing_and_a_broken_sub_frame_are_invalid() {
+    fn a25_a_rate_of_nothing_and_a_broken_sub_frame_are_invalid() {
         assert!(
             Timecode {
                 rate_numerator: 0,

@@ -13,7 +13,7 @@ mod while_valid;
 
 use std::{
     fmt,
-    net::{IpAddr, Ipv6Addr, SocketAddr},
+    net::{IpAddr, SocketAddr},
     sync::Arc,
     time::Duration,
 };
@@ -29,7 +29,7 @@ use super::{
     audit::{Audit, Entry},
     grpc::status::Refusal,
     listener::PeerCertificate,
-    peer::Peer,
+    peer::{Peer, network_of},
 };
 use crate::{clock::wall_now, config::Limits, telemetry::Metrics};
 
@@ -208,19 +208,6 @@ fn no_token(found: Presented<'_>) -> Refused {
             Presented::Nothing => "no token",
             _ => "no bearer token",
         },
-    }
-}
-
-/// Of the longer addresses one customer has 2⁶⁴.
-fn network_of(address: IpAddr) -> IpAddr {
-    match address {
-        IpAddr::V4(_) => address,
-        IpAddr::V6(address) => {
-            let [a, b, c, d, ..] = address.segments();
-            address
-                .to_ipv4_mapped()
-                .map_or_else(|| Ipv6Addr::new(a, b, c, d, 0, 0, 0, 0).into(), IpAddr::V4)
-        }
     }
 }
 

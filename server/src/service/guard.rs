@@ -13,7 +13,7 @@ use std::{str::FromStr as _, sync::Arc};
 
 use axum::{
     extract::{Request, State},
-    http::{HeaderMap, Version, header},
+    http::{HeaderMap, HeaderValue, Version, header},
     middleware::Next,
     response::Response,
 };
@@ -73,8 +73,18 @@ pub async fn check(State(Guard(rules)): State<Guard>, request: Request, next: Ne
     let kind = request.headers().get(header::CONTENT_TYPE).cloned();
     let asked = match rules.admit(&request) {
         Ok(asked) => asked,
-        Err(refusal) if is_grpc => return refusal.into_grpc(kind),
-        Err(refusal) => return answers::marked(refusal.into_http(), false),
+        Err(refusal) => {
+            let mut response = if is_grpc {
+                refusal.into_grpc(kind)
+            } else {
+                answers::marked(refusal.into_http(), false)
+            };
+            if refusal.is_of_size() && request.version() < Version::HTTP_2 {
+                let close = HeaderValue::from_static("close");
+                response.headers_mut().insert(header::CONNECTION, close);
+            }
+            return response;
+        }
     };
     let is_pinned = rules.tls.is_some() && asked.as_ref().is_some_and(Asked::is_a_name);
     let response = match rules.standing(request.headers(), asked.as_ref()) {

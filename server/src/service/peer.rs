@@ -2,7 +2,7 @@
 //!
 //! Every door puts these into the request's extensions; the services read them here and nowhere else.
 
-use std::net::SocketAddr;
+use std::net::{IpAddr, Ipv6Addr, SocketAddr};
 
 use axum::extract::ConnectInfo;
 use http::{Extensions, HeaderMap, HeaderValue, header};
@@ -89,6 +89,20 @@ impl Peer {
     }
 }
 
+/// What counts as one peer, wherever peers are limited: an address, or of the longer ones what is given to one customer,
+/// who has 2⁶⁴ of them (CONTRACTS O-1, S-10).
+pub fn network_of(address: IpAddr) -> IpAddr {
+    match address {
+        IpAddr::V4(_) => address,
+        IpAddr::V6(address) => {
+            let [a, b, c, d, ..] = address.segments();
+            address
+                .to_ipv4_mapped()
+                .map_or_else(|| Ipv6Addr::new(a, b, c, d, 0, 0, 0, 0).into(), IpAddr::V4)
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -110,5 +124,16 @@ mod tests {
         assert_eq!(door(header::SEC_WEBSOCKET_KEY, "x"), Door::WebSocket);
         assert_eq!(door(header::ACCEPT, "text/event-stream"), Door::Sse);
         assert_eq!(Door::of(&HeaderMap::new()), Door::Http);
+    }
+
+    #[test]
+    fn one_customer_is_one_peer_however_many_addresses_it_has() {
+        let is_one = |one: &str, other: &str| {
+            network_of(one.parse().unwrap()) == network_of(other.parse().unwrap())
+        };
+        assert!(is_one("2001:db8::1", "2001:db8::ffff:0:0:2"));
+        assert!(!is_one("2001:db8::1", "2001:db8:0:1::1"));
+        assert!(!is_one("10.0.0.1", "10.0.0.2"));
+        assert!(is_one("::ffff:10.0.0.1", "10.0.0.1"));
     }
 }

@@ -25,12 +25,25 @@ use super::{
 
 const PATIENCE: Duration = Duration::from_secs(60);
 
+/// What a busy machine may add to a deadline; far below what these tests wait for.
+const AFTER_A_DEADLINE: Duration = Duration::from_secs(8);
+
 const MIB: u64 = 1 << 20;
+
+/// The close came from the deadline: not before it, and not from anything that ends later.
+fn assert_closed_by(deadline: Duration, after: Duration, what: &str) {
+    assert!(after >= deadline, "{what}: closed after {after:?}");
+    assert!(
+        after <= deadline + AFTER_A_DEADLINE,
+        "{what}: closed after {after:?}"
+    );
+}
 
 /// Says something, then nothing; how long the server waits until it closes.
 async fn closed_after(address: SocketAddr, said: &[u8]) -> Duration {
-    let mut stream = TcpStream::connect(address).await.unwrap();
+    // The server's clock may begin before the connection is told here.
     let began = Instant::now();
+    let mut stream = TcpStream::connect(address).await.unwrap();
     drop(stream.write_all(said).await);
     let mut rest = Vec::new();
     // A reset is a close too.
@@ -61,6 +74,9 @@ async fn f1_five_hundred_connections_that_do_not_begin_are_closed_in_time() {
                 "G12: 500 connections that say {what}: {cost}, the last closed after {} ms",
                 longest.as_millis()
             );
+            for wait in &waits {
+                assert_closed_by(Duration::from_secs(2), *wait, what);
+            }
             assert!(cost.grown_bytes <= 16 * MIB, "{cost}");
         }
     })
@@ -130,6 +146,7 @@ async fn f2_connections_that_fall_silent_are_closed() {
                 "F2: {what}: closed after {} ms, 1 s allowed for each wait",
                 after.as_millis()
             );
+            assert_closed_by(Duration::from_secs(1), after, what);
         }
     })
     .await;

@@ -201,3 +201,25 @@ fn assert_problem(answer: &harness::HttpAnswer, status: StatusCode, reason: &str
     assert_eq!(body["status"], status.as_u16());
     assert!(body["instance"].is_string(), "{text}");
 }
+
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn e10_grpc_web_is_refused_in_the_form_that_it_is_read_in() {
+    beside_a_control_session("E10 gRPC-web", async |stage| {
+        let text = "application/grpc-web-text+proto";
+        let binary = "application/grpc-web+proto";
+        for (asked, accepted, answered) in [
+            ("application/grpc-web-text", text, text),
+            ("application/grpc-web-text", "*/*", text),
+            (text, binary, binary),
+            (binary, text, text),
+            ("application/grpc-web", "*/*", binary),
+        ] {
+            let headers = [("content-type", asked), ("accept", accepted)];
+            let path = "/frontalis.v1.Nothing/Nothing";
+            let answer = http_send(&stage.server, &Method::POST, path, &headers, b"").await;
+            assert_eq!(answer.content_type, answered, "{asked}, {accepted}");
+            assert_eq!(answer.headers["grpc-status"], "12");
+        }
+    })
+    .await;
+}

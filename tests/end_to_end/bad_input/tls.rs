@@ -1,6 +1,6 @@
 //! Row F12: what is no TLS, stalls, or shows a certificate that is not believed; and a new certificate while frames flow.
 
-use std::{net::SocketAddr, path::Path, time::Duration};
+use std::{net::SocketAddr, path::Path, process::Stdio, time::Duration};
 
 use frontalis_server::{config::Config, service::audit::FILE_NAME};
 use harness::{ClientCert, TestAuthority, TestServer, TestTls, assert_eventually};
@@ -8,12 +8,16 @@ use rustls::{ClientConnection, pki_types::ServerName};
 use tokio::{
     io::{AsyncReadExt as _, AsyncWriteExt as _},
     net::TcpStream,
+    process::Command,
     time::{Instant, timeout},
 };
 
 use super::beside_a_control_session_of;
 
 const PATIENCE: Duration = Duration::from_secs(30);
+
+/// What a busy machine may add to a deadline; far below what these tests wait for.
+const AFTER_A_DEADLINE: Duration = Duration::from_secs(8);
 
 const HTTP1: [&str; 1] = ["http/1.1"];
 
@@ -31,8 +35,9 @@ async fn server(authority: &TestAuthority, change: impl FnOnce(&mut Config)) -> 
 
 /// Says something that is no handshake; how long the server waits until it closes.
 async fn closed_after(address: SocketAddr, said: &[u8]) -> Duration {
-    let mut stream = TcpStream::connect(address).await.unwrap();
+    // The server's clock may begin before the connection is told here.
     let began = Instant::now();
+    let mut stream = TcpStream::connect(address).await.unwrap();
     drop(stream.write_all(said).await);
     let mut rest = Vec::new();
     // A reset is a close too.
@@ -107,6 +112,16 @@ async fn f12_what_is_no_handshake_is_closed_in_time() {
                 "F12: {what}: closed after {} ms, 1 s allowed",
                 after.as_millis()
             );
+            let deadline = Duration::from_secs(1);
+            let stalls = ["half a hello, then nothing", "nothing"].contains(&what);
+            assert!(
+                !stalls || after >= deadline,
+                "{what}: closed after {after:?}"
+            );
+            assert!(
+                after <= deadline + AFTER_A_DEADLINE,
+                "{what}: closed after {after:?}"
+            );
         }
         let metrics = get(&client, address, "/metrics").await.unwrap();
         for why in ["protocol", "stalled"] {
@@ -115,6 +130,51 @@ async fn f12_what_is_no_handshake_is_closed_in_time() {
         }
     })
     .await;
+}
+
+/// TLS 1.3 has no renegotiation; of TLS 1.2 the library speaks none, and no second handshake follows.
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn f12_a_renegotiation_is_refused() {
+    let Some(version) = openssl(&["version"], "").await else {
+        println!("left out: f12_a_renegotiation_is_refused: openssl is not installed");
+        return;
+    };
+    println!("F12: {}", version.trim());
+    let authority = TestAuthority::new("authority");
+    let server = server(&authority, |_| {}).await;
+    beside_a_control_session_of("F12 renegotiation", server, async |stage| {
+        let address = stage.server.address().to_string();
+        let ca = authority.ca_file();
+        let shake = ["s_client", "-connect", &address, "-CAfile", &ca, "-tls1_2"];
+        // `R` at the beginning of a line begins one.
+        let said = openssl(&shake, "R\n").await.unwrap();
+        assert!(said.contains("New, TLSv1.2"), "{said}");
+        let (_, after) = said.split_once("RENEGOTIATING").unwrap();
+        assert!(after.contains("error:"), "{said}");
+        assert!(!after.contains("verify return"), "{said}");
+    })
+    .await;
+}
+
+/// What a third party's client says; none when it is not there.
+async fn openssl(args: &[&str], typed: &str) -> Option<String> {
+    let mut child = Command::new("openssl")
+        .args(args)
+        .stdin(Stdio::piped())
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .kill_on_drop(true)
+        .spawn()
+        .ok()?;
+    let mut stdin = child.stdin.take().unwrap();
+    // It may have ended before it was told anything.
+    drop(stdin.write_all(typed.as_bytes()).await);
+    // Held open: with its end the client would not wait for an answer.
+    let output = timeout(PATIENCE, child.wait_with_output()).await.unwrap();
+    drop(stdin);
+    let output = output.unwrap();
+    let said = [output.stdout, output.stderr].concat();
+    Some(String::from_utf8_lossy(&said).into_owned())
 }
 
 #[tokio::test(flavor = "multi_thread", worker_threads = 2)]

@@ -63,6 +63,11 @@ impl Refusal {
         (status, code, reason, detail.to_owned())
     }
 
+    /// Whoever sends so much is not listened to any longer, where a connection is one conversation (BAD_INPUT F13).
+    pub(super) fn is_of_size(self) -> bool {
+        matches!(self, Self::Target | Self::Headers(_))
+    }
+
     pub(super) fn into_http(self) -> Response {
         let (status, _, reason, detail) = self.parts();
         Problem::new(status, reason, &detail).into_response()

@@ -231,6 +231,7 @@ async fn long_targets_and_large_headers_have_their_own_answers() {
         .await
         .unwrap();
     assert_eq!(answered.status(), StatusCode::URI_TOO_LONG);
+    assert_eq!(answered.headers()["connection"], "close");
     let large = "x".repeat(16 * 1024);
     let headers = [("host", "localhost"), ("a", &large)];
     let status = status(router(|_| {}), &headers).await;

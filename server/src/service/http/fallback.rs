@@ -22,7 +22,7 @@ use crate::{
 pub async fn unknown(request: Request) -> Response {
     if let Some(door) = grpc_door(request.headers()) {
         let status = refuse(Code::Unimplemented, "METHOD", "there is no such method");
-        return grpc(status, door);
+        return grpc(status, door, request.headers());
     }
     if matches!(*request.method(), Method::TRACE | Method::CONNECT) {
         let problem = Problem::new(
@@ -49,7 +49,7 @@ pub(super) async fn method_not_allowed(request: Request) -> Response {
             "METHOD",
             "this path does not speak gRPC",
         );
-        return grpc(status, door);
+        return grpc(status, door, request.headers());
     }
     // The router adds what this path allows.
     Problem::new(
@@ -87,7 +87,8 @@ pub async fn grpc_only(
         metrics.request(Protocol::Grpc);
         if request.version() != Version::HTTP_2 {
             let message = "gRPC needs HTTP/2";
-            return grpc(refuse(Code::Unimplemented, "HTTP_VERSION", message), door);
+            let status = refuse(Code::Unimplemented, "HTTP_VERSION", message);
+            return grpc(status, door, request.headers());
         }
     }
     request.extensions_mut().insert(door);
@@ -118,19 +119,32 @@ fn only_post() -> Response {
 /// A refusal in the protocol that the request speaks, whatever it asked for.
 pub fn refuse_in_kind(request: &Request, status: Status) -> Response {
     match grpc_door(request.headers()) {
-        Some(door) => grpc(status, door),
+        Some(door) => grpc(status, door, request.headers()),
         None => Problem::from(status).into_response(),
     }
 }
 
 /// A refusal as the door's clients read it; gRPC-web takes the status from the headers too, under its own type.
-fn grpc(status: Status, door: Door) -> Response {
+fn grpc(status: Status, door: Door, asked: &HeaderMap) -> Response {
     let mut response = status.into_http::<Body>();
     if door == Door::GrpcWeb {
-        let kind = HeaderValue::from_static("application/grpc-web+proto");
+        let kind = HeaderValue::from_static(grpc_web_kind(asked));
         response.headers_mut().insert(header::CONTENT_TYPE, kind);
     }
     response
+}
+
+/// The type of an answer over gRPC-web: what is accepted, or as it was asked.
+fn grpc_web_kind(asked: &HeaderMap) -> &'static str {
+    let kind = asked
+        .get(header::ACCEPT)
+        .filter(|it| it.as_bytes().starts_with(b"application/grpc-web"))
+        .or_else(|| asked.get(header::CONTENT_TYPE));
+    if kind.is_some_and(|it| it.as_bytes().starts_with(b"application/grpc-web-text")) {
+        "application/grpc-web-text+proto"
+    } else {
+        "application/grpc-web+proto"
+    }
 }
 
 /// By which of the gRPC doors a request comes, if by one; exactly the types that are read.
@@ -171,6 +185,8 @@ impl ResponseForPanic for GrpcPanic {
         self.0.panicked();
         tracing::error!("a gRPC handler panicked");
         let message = "the server made a mistake; it goes on";
-        grpc(refuse(Code::Internal, "PANIC", message), Door::Grpc)
+        let status = refuse(Code::Internal, "PANIC", message);
+        // What is written for gRPC-web is so outside of here.
+        grpc(status, Door::Grpc, &HeaderMap::new())
     }
 }

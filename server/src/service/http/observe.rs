@@ -9,7 +9,11 @@ use axum::{
     response::{IntoResponse, Response},
 };
 
-use super::{Doors, openapi::Refusals, problem::Problem};
+use super::{
+    Doors,
+    openapi::{Document, Refusals},
+    problem::Problem,
+};
 use crate::{
     hub::SessionState,
     service::access::{Action, Caller},
@@ -23,21 +27,7 @@ Frontalis: facial motion capture in, muscle curves out.
 
 gRPC on this port: frontalis.v1, with reflection and health.
 
-GET /api/v1/server
-GET /api/v1/actors?pageSize=N&pageToken=TOKEN
-GET, PUT, DELETE /api/v1/actors/ID
-GET /api/v1/actors/ID/model.glb?revision=N
-GET /api/v1/actors/ID/package?revision=N
-GET, POST /api/v1/sessions?pageSize=N&pageToken=TOKEN
-GET, PATCH /api/v1/sessions/ID
-POST /api/v1/sessions/ID/recenter
-POST /api/v1/sessions/ID/end
-GET /api/v1/sessions/ID/curves?run=RUN&after=SEQUENCE&limit=N
 GET /docs
-GET /openapi.json
-GET /healthz
-GET /readyz
-GET /metrics
 ";
 
 const STATES: [SessionState; 6] = [
@@ -58,13 +48,16 @@ const STATES: [SessionState; 6] = [
     security(()),
     responses((status = 200, description = "The paths.", body = String, content_type = "text/plain")),
 )]
-pub(super) async fn index(State(doors): State<Doors>) -> String {
+pub(super) async fn index(
+    State(doors): State<Doors>,
+    Extension(document): Extension<Document>,
+) -> String {
     let warning = if doors.metrics.is_insecure() {
         "\nINSECURE: others can reach this port, without TLS or without tokens.\n"
     } else {
         ""
     };
-    format!("{INDEX}{warning}")
+    format!("{INDEX}{}{warning}", document.index())
 }
 
 /// Live: the runtime answers.

@@ -31,14 +31,24 @@ const SCHEMAS: &str = "#/components/schemas/";
 
 /// The document as it is served.
 #[derive(Clone)]
-pub(super) struct Document(Arc<Bytes>);
+pub(super) struct Document {
+    json: Bytes,
+    index: Arc<str>,
+}
 
 impl Document {
     /// Describes `operations`; callers must prove who they are if `tokens`.
     pub fn new(operations: &OpenApi, tokens: bool) -> Self {
-        Self(Arc::new(Bytes::from(
-            document(operations, tokens).to_string(),
-        )))
+        let document = document(operations, tokens);
+        Self {
+            json: Bytes::from(document.to_string()),
+            index: index(&document).into(),
+        }
+    }
+
+    /// One line for each operation: its method, its path, and what its query may say.
+    pub fn index(&self) -> &str {
+        &self.index
     }
 }
 
@@ -53,8 +63,7 @@ impl Document {
 )]
 pub(super) async fn serve(Extension(document): Extension<Document>) -> Response {
     let kind = HeaderValue::from_static("application/json");
-    let body = Bytes::clone(&document.0);
-    ([(header::CONTENT_TYPE, kind)], body).into_response()
+    ([(header::CONTENT_TYPE, kind)], document.json).into_response()
 }
 
 /// The whole document.
@@ -97,6 +106,25 @@ pub(super) fn document(operations: &OpenApi, tokens: bool) -> Value {
         },
     });
     document
+}
+
+fn index(document: &Value) -> String {
+    let paths = document["paths"].as_object().into_iter().flatten();
+    let mut lines = String::new();
+    for (path, operations) in paths {
+        for (method, operation) in operations.as_object().into_iter().flatten() {
+            let parameters = operation["parameters"].as_array().into_iter().flatten();
+            let query: Vec<_> = parameters
+                .filter(|it| it["in"] == "query")
+                .filter_map(|it| it["name"].as_str())
+                .map(|it| format!("{it}="))
+                .collect();
+            let mark = if query.is_empty() { "" } else { "?" };
+            let method = method.to_ascii_uppercase();
+            lines.extend([&method, " ", path, mark, &query.join("&"), "\n"]);
+        }
+    }
+    lines
 }
 
 /// `int32` and `int64` are signed, while every number of a query is not: its bounds say what it is.

@@ -1,4 +1,4 @@
-//! How many connections may be open, in all and of one address.
+//! How many connections may be open, in all and of one peer ([`network_of`]).
 
 use std::{
     collections::BTreeMap,
@@ -8,6 +8,7 @@ use std::{
 
 use crate::{
     config::Limits,
+    service::peer::network_of,
     telemetry::{ConnectionLimit, Metrics},
 };
 
@@ -44,6 +45,7 @@ impl Admission {
 
     /// Counts a connection of `peer`, or refuses it.
     pub(super) fn admit(&self, peer: IpAddr) -> Option<Permit> {
+        let peer = network_of(peer);
         let mut open = self.open();
         if open.all >= self.limit {
             self.metrics
@@ -115,6 +117,17 @@ mod tests {
         let held = admission.admit(one).unwrap();
         assert!(admission.admit(one).is_none());
         assert!(admission.admit(other).is_some());
+        drop(held);
+        assert!(admission.open().by_peer.is_empty());
+    }
+
+    #[test]
+    fn the_addresses_of_one_ipv6_customer_are_one_peer() {
+        let admission = admission(8, 1);
+        let address = |it: &str| it.parse::<IpAddr>().unwrap();
+        let held = admission.admit(address("2001:db8::1")).unwrap();
+        assert!(admission.admit(address("2001:db8::2:0:0:1")).is_none());
+        assert!(admission.admit(address("2001:db8:0:1::1")).is_some());
         drop(held);
         assert!(admission.open().by_peer.is_empty());
     }

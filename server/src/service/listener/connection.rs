@@ -21,7 +21,7 @@ use super::{
     Listener, OpenConnection, PeerCertificate,
     admission::Permit,
     frames::ControlFrame,
-    inbound::Inbound,
+    inbound::{Inbound, Upgraded},
     lingering::Lingering,
     liveness::Liveness,
     tls::{Handshake, Tls},
@@ -37,7 +37,8 @@ use crate::{
 };
 
 /// Bytes of one HTTP/1 read buffer; headers beyond it are refused.
-const HTTP1_BUFFER_BYTES: usize = 64 * 1024;
+/// A target of 64 KiB fits, so that it is told to be too long rather than that the headers are too large.
+const HTTP1_BUFFER_BYTES: usize = 128 * 1024;
 
 /// Streams that a peer may reset before they were accepted (S-9).
 const PENDING_RESETS: usize = 20;
@@ -148,9 +149,11 @@ impl Connections {
         S: AsyncRead + AsyncWrite + Unpin + Send + 'static,
     {
         let _open = about.open.clone();
-        let (inbound, exceeded) = Inbound::new(Lingering::new(stream), self.header_deadline);
+        let upgraded = Upgraded::default();
+        let stream = Lingering::new(stream);
+        let (inbound, exceeded) = Inbound::new(stream, self.header_deadline, upgraded.clone());
         let peer = about.peer;
-        let service = service(self.router.clone(), about);
+        let service = service(self.router.clone(), about, upgraded);
         let connection = self
             .http
             .serve_connection_with_upgrades(TokioIo::new(inbound), service);
@@ -213,6 +216,7 @@ async fn drive<I, S, B>(
 fn service(
     router: Router,
     about: About,
+    upgraded: Upgraded,
 ) -> impl hyper::service::Service<
     http::Request<Incoming>,
     Response = http::Response<Body>,
@@ -236,7 +240,14 @@ fn service(
         if let Some(certificate) = certificate {
             extensions.insert(certificate);
         }
-        router.clone().oneshot(request.map(Body::new))
+        let (router, upgraded) = (router.clone(), upgraded.clone());
+        async move {
+            let response = router.oneshot(request.map(Body::new)).await?;
+            if response.status() == http::StatusCode::SWITCHING_PROTOCOLS {
+                upgraded.set();
+            }
+            Ok(response)
+        }
     })
 }
 

@@ -2,13 +2,17 @@
 //!
 //! The library takes a lone line feed for the end of a line, one of two lengths when a request has two, and two that are
 //! equal for one. A proxy in front of it may see that otherwise, and a request hidden in another is born. Here the byte
-//! that completes such a request becomes NUL, which the library refuses with 400 and the end of the connection.
+//! that completes such a request becomes NUL, which the library refuses with 400 wherever it may still answer, and it is the
+//! last that is read of the connection: where NUL means nothing, as in the extension of a chunk, the end does not.
 
-/// As much of a line as is looked at: header names and lengths are shorter.
+/// As much of a line as is looked at. One that says a length and is longer is refused: the library would read on.
 const MAX_LINE_BYTES: usize = 64;
 
 /// What no header, line or chunk may hold.
 const SPOILED: u8 = 0;
+
+/// What follows a head that was spoiled: the library looks at no head before its end has come.
+const END_OF_HEAD: &[u8] = b"\r\n\r\n";
 
 /// Follows the requests of one connection.
 pub(super) struct Http1Framing {
@@ -17,6 +21,8 @@ pub(super) struct Http1Framing {
     /// The last byte was a carriage return.
     after_return: bool,
     head: Head,
+    /// What is left to say once it is broken.
+    last_words: &'static [u8],
 }
 
 /// What comes next.
@@ -30,8 +36,10 @@ enum Part {
     },
     ChunkSize,
     Trailers,
-    /// No more requests: the connection speaks something else now, or is about to end.
+    /// No more requests: the connection speaks something else now.
     Opaque,
+    /// Nothing at all: where the next request begins is not clear.
+    Broken,
 }
 
 /// What the lines of a head said.
@@ -41,6 +49,8 @@ struct Head {
     n_lengths: usize,
     length: Option<u64>,
     is_chunked: bool,
+    /// A length goes on beyond what is looked at.
+    is_cut: bool,
 }
 
 impl Http1Framing {
@@ -50,6 +60,7 @@ impl Http1Framing {
             line: Vec::new(),
             after_return: false,
             head: Head::default(),
+            last_words: b"",
         }
     }
 
@@ -58,20 +69,38 @@ impl Http1Framing {
         self.part = Part::Opaque;
     }
 
-    /// Follows these bytes, and spoils the one that completes an ambiguous request.
-    pub(super) fn follow(&mut self, mut bytes: &mut [u8]) {
-        while !bytes.is_empty() && self.part != Part::Opaque {
-            let n = if let Part::Content { n_left, is_chunk } = self.part {
-                self.skip(n_left, is_chunk, bytes.len())
-            } else {
-                if !self.take(bytes[0]) {
-                    bytes[0] = SPOILED;
-                    self.part = Part::Opaque;
+    /// Nothing more may be read.
+    pub(super) fn is_broken(&self) -> bool {
+        self.part == Part::Broken
+    }
+
+    /// What stands for the rest of a broken connection, at most so many bytes; with nothing it has ended.
+    pub(super) fn last_words(&mut self, most: usize) -> &'static [u8] {
+        let (now, later) = self.last_words.split_at(most.min(self.last_words.len()));
+        self.last_words = later;
+        now
+    }
+
+    /// Follows these bytes, and spoils the one that completes an ambiguous request; how many of them may be read.
+    pub(super) fn follow(&mut self, bytes: &mut [u8]) -> usize {
+        let mut n = 0;
+        while n < bytes.len() {
+            n += match self.part {
+                Part::Broken => return n,
+                Part::Opaque => bytes.len() - n,
+                Part::Content { n_left, is_chunk } => self.skip(n_left, is_chunk, bytes.len() - n),
+                Part::Head | Part::ChunkSize | Part::Trailers => {
+                    let of_head = self.part == Part::Head;
+                    if !self.take(bytes[n]) {
+                        bytes[n] = SPOILED;
+                        self.last_words = if of_head { END_OF_HEAD } else { b"" };
+                        self.part = Part::Broken;
+                    }
+                    1
                 }
-                1
             };
-            bytes = &mut bytes[n..];
         }
+        n
     }
 
     fn skip(&mut self, n_left: u64, is_chunk: bool, n_there: usize) -> usize {
@@ -90,7 +119,7 @@ impl Http1Framing {
         let after_return = std::mem::replace(&mut self.after_return, byte == b'\r');
         if byte != b'\n' {
             // The return before it was part of the line, which the library refuses.
-            if byte != b'\r' && self.line.len() < MAX_LINE_BYTES {
+            if byte != b'\r' && self.line.len() <= MAX_LINE_BYTES {
                 self.line.push(byte);
             }
             return true;
@@ -117,7 +146,7 @@ impl Http1Framing {
                 }
                 true
             }
-            Part::Content { .. } | Part::Opaque => true,
+            Part::Content { .. } | Part::Opaque | Part::Broken => true,
         }
     }
 
@@ -132,12 +161,13 @@ impl Http1Framing {
             },
             _ => Part::Head,
         };
-        n_framings <= 1
+        n_framings <= 1 && !head.is_cut
     }
 
     fn begin_chunk(&mut self, line: &[u8]) -> bool {
         let digits = line.split(|it| matches!(it, b';' | b' ' | b'\t')).next();
         let size = digits
+            .filter(|it| it.len() <= MAX_LINE_BYTES)
             .and_then(|it| std::str::from_utf8(it).ok())
             .and_then(|it| u64::from_str_radix(it, 16).ok());
         // The end of its line belongs to it.
@@ -167,6 +197,7 @@ impl Head {
         let (name, value) = (&line[..colon], &line[colon + 1..]);
         if name.eq_ignore_ascii_case(b"content-length") {
             self.n_lengths += 1;
+            self.is_cut |= line.len() > MAX_LINE_BYTES;
             let value = std::str::from_utf8(value.trim_ascii()).ok();
             // The library refuses what is no number.
             self.length = value.and_then(|it| it.parse().ok());
@@ -188,15 +219,23 @@ mod tests {
     fn followed(sent: &str, n_piece: usize) -> String {
         let mut framing = Http1Framing::new();
         let mut bytes = sent.as_bytes().to_vec();
+        let mut handed = Vec::new();
         for piece in bytes.chunks_mut(n_piece) {
-            framing.follow(piece);
+            let n = framing.follow(piece);
+            assert!(framing.is_broken() || n == piece.len());
+            handed.extend_from_slice(&piece[..n]);
         }
-        String::from_utf8(bytes).unwrap()
+        String::from_utf8(handed).unwrap()
     }
 
+    /// Whether these bytes are spoiled; then they end there, whatever follows.
     fn is_spoiled(sent: &str) -> bool {
         let whole = followed(sent, sent.len());
         assert_eq!(whole, followed(sent, 1));
+        assert_eq!(whole.ends_with(char::from(SPOILED)), whole != sent);
+        if whole != sent {
+            assert_eq!(whole, followed(&format!("{sent}{GET}"), 7));
+        }
         whole != sent
     }
 
@@ -208,6 +247,10 @@ mod tests {
             format!("POST / HTTP/1.1\r\nContent-Length: 4\r\n\r\na\n\nb{GET}"),
             format!(
                 "POST / HTTP/1.1\r\nTransfer-Encoding: chunked\r\n\r\n3;x=y\r\n\n\n\n\r\n0\r\nA: b\r\n\r\n{GET}"
+            ),
+            format!(
+                "POST / HTTP/1.1\r\nTransfer-Encoding: chunked\r\n\r\n3;{}\r\n\n\n\n\r\n0\r\n\r\n{GET}",
+                "x".repeat(99)
             ),
             format!("GET /{} HTTP/1.1\r\nHost: x\r\n\r\n", "x".repeat(500)),
         ];
@@ -226,12 +269,29 @@ mod tests {
             "POST / HTTP/1.1\r\ntransfer-encoding: chunked\r\ncontent-length: 4\r\n\r\n",
             "POST / HTTP/1.1\r\nContent-Length: 4\r\nContent-Length: 4\r\n\r\n",
             "POST / HTTP/1.1\r\nTransfer-Encoding: chunked\r\n\r\n3\nabc\r\n",
+            "POST / HTTP/1.1\r\nTransfer-Encoding: chunked\r\n\r\n3;\n\r\nabc\r\n",
+            "POST / HTTP/1.1\r\nTransfer-Encoding: chunked\r\n\r\n0\r\nA: b\n\r\n",
+            "POST / HTTP/1.1\r\nTransfer-Encoding: chunked\r\n\r\n0\r\n\n",
             "POST / HTTP/1.1\r\nTransfer-Encoding: chunked\r\n\r\nfffffffffffffffff\r\n",
             "POST / HTTP/1.1\r\nTransfer-Encoding: chunked\r\n\r\nffffffffffffffff\r\n",
         ];
         for sent in ambiguous {
             assert!(is_spoiled(sent), "{sent}");
             assert!(is_spoiled(&format!("{GET}{sent}")), "{sent}");
+        }
+    }
+
+    #[test]
+    fn lengths_that_are_longer_than_what_is_looked_at_are_spoiled() {
+        let zeros = "0".repeat(MAX_LINE_BYTES);
+        let spaces = " ".repeat(MAX_LINE_BYTES);
+        let post = "POST / HTTP/1.1\r\n";
+        for sent in [
+            format!("{post}Content-Length:{spaces}5\r\n\r\n"),
+            format!("{post}Content-Length:{zeros}5\r\n\r\n"),
+            format!("{post}Transfer-Encoding: chunked\r\n\r\n{zeros}5\r\n"),
+        ] {
+            assert!(is_spoiled(&sent), "{sent}");
         }
     }
 
@@ -255,7 +315,7 @@ mod tests {
             for piece in bytes.chunks_mut(n_piece) {
                 framing.follow(piece);
             }
-            prop_assert!(framing.line.len() <= MAX_LINE_BYTES);
+            prop_assert!(framing.line.len() <= MAX_LINE_BYTES + 1);
         }
     }
 }

@@ -2,7 +2,8 @@
 //!
 //! The libraries' timers start with the first request or after the HTTP/2 preface; a peer that sends neither, or half a
 //! preface, would stay for ever (CONTRACTS S-9, BAD_INPUT F1). Of HTTP/2 the control frames are counted ([`frames`]);
-//! above their budget nothing more is read (F8). Of HTTP/1 the ends of requests must be clear ([`http1_framing`], F13).
+//! above their budget nothing more is read (F8). Of HTTP/1 the ends of requests must be clear ([`http1_framing`], F13);
+//! with the first that is not, the connection ends here.
 //!
 //! [`frames`]: super::frames
 //! [`http1_framing`]: super::http1_framing
@@ -10,6 +11,10 @@
 use std::{
     io,
     pin::Pin,
+    sync::{
+        Arc,
+        atomic::{AtomicBool, Ordering},
+    },
     task::{Context, Poll},
     time::Duration,
 };
@@ -27,12 +32,25 @@ use super::{
 
 const PREFACE: &[u8; 24] = b"PRI * HTTP/2.0\r\n\r\nSM\r\n\r\n";
 
-const SWITCHING: &[u8] = b"HTTP/1.1 101";
+/// Set by whoever answers that the connection speaks something else from now on; an upgrade is its last request.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Upgraded(Arc<AtomicBool>);
+
+impl Upgraded {
+    pub(super) fn set(&self) {
+        self.0.store(true, Ordering::Release);
+    }
+
+    fn is_set(&self) -> bool {
+        self.0.load(Ordering::Acquire)
+    }
+}
 
 /// Reads fail after the deadline, unless it is clear by then which protocol is spoken.
 pub(super) struct Inbound<S> {
     stream: S,
     speech: Speech,
+    upgraded: Upgraded,
     /// Tells which frames were too many; none once it has.
     excess: Option<oneshot::Sender<ControlFrame>>,
 }
@@ -51,7 +69,11 @@ enum Speech {
 
 impl<S> Inbound<S> {
     /// The stream, and what says that too many frames came.
-    pub(super) fn new(stream: S, within: Duration) -> (Self, oneshot::Receiver<ControlFrame>) {
+    pub(super) fn new(
+        stream: S,
+        within: Duration,
+        upgraded: Upgraded,
+    ) -> (Self, oneshot::Receiver<ControlFrame>) {
         let (excess, exceeded) = oneshot::channel();
         let speech = Speech::Unclear {
             deadline: Box::pin(tokio::time::sleep(within)),
@@ -60,21 +82,15 @@ impl<S> Inbound<S> {
         let inbound = Self {
             stream,
             speech,
+            upgraded,
             excess: Some(excess),
         };
         (inbound, exceeded)
     }
 
-    /// With this answer HTTP/1 ends and a WebSocket begins; an upgrade is the last request of its connection.
-    fn observe_answer(&mut self, bytes: &[u8]) {
-        if let Speech::Http1(framing) = &mut self.speech
-            && bytes.starts_with(SWITCHING)
-        {
-            framing.upgraded();
-        }
-    }
-
-    fn observe(&mut self, bytes: &mut [u8]) {
+    /// How many of these bytes may be read.
+    fn observe(&mut self, bytes: &mut [u8]) -> usize {
+        let n_there = bytes.len();
         let rest = match &mut self.speech {
             Speech::Unclear { n_matched, .. } => {
                 // It is clear with the whole preface, or with the first byte that is none of it.
@@ -91,26 +107,29 @@ impl<S> Inbound<S> {
                     self.speech = Speech::Http2(FrameMeter::new(Instant::now()));
                     &mut bytes[n..]
                 } else {
-                    return;
+                    return n_there;
                 }
             }
             Speech::Http1(_) | Speech::Http2(_) => bytes,
         };
-        let exceeded = match &mut self.speech {
-            Speech::Http2(meter) => meter.observe(rest, Instant::now()),
+        match &mut self.speech {
             Speech::Http1(framing) => {
-                framing.follow(rest);
-                None
+                if self.upgraded.is_set() {
+                    framing.upgraded();
+                }
+                return framing.follow(rest);
             }
-            Speech::Unclear { .. } => None,
-        };
-        let Some(kind) = exceeded else {
-            return;
-        };
-        if let Some(excess) = self.excess.take() {
-            // Nobody listens when the connection is on its way out anyway.
-            let _told = excess.send(kind);
+            Speech::Http2(meter) => {
+                if let Some(kind) = meter.observe(rest, Instant::now())
+                    && let Some(excess) = self.excess.take()
+                {
+                    // Nobody listens when the connection is on its way out anyway.
+                    let _told = excess.send(kind);
+                }
+            }
+            Speech::Unclear { .. } => {}
         }
+        n_there
     }
 }
 
@@ -125,10 +144,17 @@ impl<S: AsyncRead + Unpin> AsyncRead for Inbound<S> {
             // Whoever was told ends the connection; until then nothing wakes this read.
             return Poll::Pending;
         }
+        if let Speech::Http1(framing) = &mut this.speech
+            && framing.is_broken()
+        {
+            buf.put_slice(framing.last_words(buf.remaining()));
+            return Poll::Ready(Ok(()));
+        }
         let before = buf.filled().len();
         let read = Pin::new(&mut this.stream).poll_read(cx, buf);
         if read.is_ready() {
-            this.observe(&mut buf.filled_mut()[before..]);
+            let n = this.observe(&mut buf.filled_mut()[before..]);
+            buf.set_filled(before + n);
             return read;
         }
         match &mut this.speech {
@@ -147,9 +173,7 @@ impl<S: AsyncWrite + Unpin> AsyncWrite for Inbound<S> {
         cx: &mut Context<'_>,
         buf: &[u8],
     ) -> Poll<io::Result<usize>> {
-        let this = self.get_mut();
-        this.observe_answer(buf);
-        Pin::new(&mut this.stream).poll_write(cx, buf)
+        Pin::new(&mut self.get_mut().stream).poll_write(cx, buf)
     }
 
     fn poll_flush(self: Pin<&mut Self>, cx: &mut Context<'_>) -> Poll<io::Result<()>> {
@@ -169,9 +193,7 @@ impl<S: AsyncWrite + Unpin> AsyncWrite for Inbound<S> {
         cx: &mut Context<'_>,
         bufs: &[io::IoSlice<'_>],
     ) -> Poll<io::Result<usize>> {
-        let this = self.get_mut();
-        this.observe_answer(bufs.first().map_or(&[], |it| it));
-        Pin::new(&mut this.stream).poll_write_vectored(cx, bufs)
+        Pin::new(&mut self.get_mut().stream).poll_write_vectored(cx, bufs)
     }
 }
 
@@ -186,7 +208,7 @@ mod tests {
     /// Writes `sent`, then nothing for ever: does a reader see the end of its patience?
     async fn times_out_after(sent: &[u8]) -> bool {
         let (mut peer, stream) = duplex(64);
-        let (mut inbound, _exceeded) = Inbound::new(stream, WITHIN);
+        let (mut inbound, _exceeded) = Inbound::new(stream, WITHIN, Upgraded::default());
         peer.write_all(sent).await.unwrap();
         let mut buffer = [0; 64];
         let all = async {
@@ -207,12 +229,41 @@ mod tests {
         assert!(times_out_after(&PREFACE[..23]).await);
     }
 
+    #[tokio::test]
+    async fn after_a_request_whose_end_is_not_clear_a_reader_sees_the_end() {
+        let (mut peer, stream) = duplex(1024);
+        let (mut inbound, _exceeded) = Inbound::new(stream, WITHIN, Upgraded::default());
+        let clear = b"GET / HTTP/1.1\r\nHost: x\r\n\r\n";
+        peer.write_all(&[clear, &b"GET / HTTP/1.1\n"[..], clear].concat())
+            .await
+            .unwrap();
+        let mut read = Vec::new();
+        inbound.read_to_end(&mut read).await.unwrap();
+        assert_eq!(read, [clear, &b"GET / HTTP/1.1\0\r\n\r\n"[..]].concat());
+        peer.write_all(clear).await.unwrap();
+        assert_eq!(inbound.read(&mut [0; 64]).await.unwrap(), 0);
+    }
+
+    #[tokio::test]
+    async fn after_an_upgrade_lines_are_no_requests() {
+        let (mut peer, stream) = duplex(1024);
+        let upgraded = Upgraded::default();
+        let (mut inbound, _exceeded) = Inbound::new(stream, WITHIN, upgraded.clone());
+        peer.write_all(b"GET / HTTP/1.1\r\n\r\n").await.unwrap();
+        let mut read = [0; 64];
+        assert_eq!(inbound.read(&mut read).await.unwrap(), 18);
+        upgraded.set();
+        peer.write_all(b"\n\n").await.unwrap();
+        assert_eq!(inbound.read(&mut read).await.unwrap(), 2);
+        assert_eq!(read[..2], *b"\n\n");
+    }
+
     #[tokio::test(start_paused = true)]
     async fn a_flood_is_reported_and_nothing_more_is_read() {
         let ping = [0, 0, 0, 6, 0, 0, 0, 0, 0];
         let flood = [&PREFACE[..], &ping.repeat(20_000)].concat();
         let (mut peer, stream) = duplex(flood.len() * 2);
-        let (mut inbound, exceeded) = Inbound::new(stream, WITHIN);
+        let (mut inbound, exceeded) = Inbound::new(stream, WITHIN, Upgraded::default());
         peer.write_all(&flood).await.unwrap();
         let mut n_read = 0;
         let mut buffer = [0; 1024];

@@ -105,7 +105,7 @@ fn the_number_of_coordinates_is_none_or_all() {
 }
 
 #[test]
-fn a_wrong_checksum_is_refused_and_a_right_one_is_not() {
+fn a28_a_wrong_checksum_is_refused_and_a_right_one_is_not() {
     let mut it = sent(&[1.0, 2.0, 3.0, 4.0, 5.0, 6.0]);
     let bytes: Vec<u8> = it
         .positions

@@ -264,7 +264,7 @@ mod tests {
     }
 
     #[test]
-    fn each_number_out_of_range_is_named() {
+    fn d13_each_number_out_of_range_is_named() {
         for count in [0, 257, u32::MAX] {
             let asked = v1::SessionSettings {
                 neutral_frames: Some(count),
