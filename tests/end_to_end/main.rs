@@ -7,6 +7,7 @@ mod api_page;
 mod bad_input;
 mod clients;
 mod command_line;
+mod curl_refusals;
 mod curves_http;
 mod demo;
 mod drain;

@@ -31,7 +31,9 @@ use super::{
         takes::TakesGrpc,
     },
     guard::{self, Guard},
-    http::{self, Doors, GrpcPanic, grpc_only, http_only, unknown, with_instance},
+    http::{
+        self, Doors, Draining, GrpcPanic, grpc_only, heard_out, http_only, unknown, with_instance,
+    },
     panics,
 };
 use crate::{config::SMALL_MESSAGE_BYTES, telemetry::Metrics};
@@ -157,7 +159,12 @@ pub async fn router(
         .fallback(move |request| count_unknown(metrics.clone(), request))
         .layer(middleware::from_fn_with_state(access, authenticate))
         .layer(middleware::from_fn_with_state(guard, guard::check))
-        .layer(middleware::from_fn(with_instance));
+        .layer(middleware::from_fn(with_instance))
+        // Outermost: whoever refuses, the refusal is heard.
+        .layer(middleware::from_fn_with_state(
+            Draining::default(),
+            heard_out,
+        ));
     Ok((router, reporter))
 }
 

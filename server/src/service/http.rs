@@ -7,6 +7,7 @@ mod actors;
 mod call;
 mod curves;
 mod docs;
+mod draining;
 mod events;
 mod fallback;
 mod frames;
@@ -40,6 +41,7 @@ use crate::{
 };
 
 pub use call::LargeBodies;
+pub use draining::{Draining, heard_out};
 pub use fallback::{GrpcPanic, grpc_only, http_only, refuse_in_kind, unknown};
 pub use problem::{Problem, with_instance};
 
