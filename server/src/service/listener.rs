@@ -13,6 +13,7 @@ mod lingering;
 mod liveness;
 mod open_connection;
 pub mod tls;
+mod watched;
 
 use std::{io, net::SocketAddr, time::Duration};
 

@@ -33,7 +33,10 @@ use_token "${operator_token_file:-}" > "$work/operator"
 
 fail() { echo "broken: $*" >&2; exit 1; }
 # Answers in JSON, or ends with what the server refused.
-ask() { curl "${options[@]}" --fail-with-body "$@" || fail "$*"; }
+ask() {
+  curl "${options[@]}" --fail-with-body "$@" > "$work/answer" || fail "$*: $(head -c 2000 "$work/answer")"
+  cat "$work/answer"
+}
 # expect TEXT FILE: the file holds the text.
 expect() { grep -q -- "$1" "$2" || fail "no $1 in: $(head -c 2000 "$2")"; }
 
@@ -67,15 +70,18 @@ last=$(grep -o '"number":"[0-9]*"' "$frames" | tail -n 1 | grep -o '[0-9]*')
 expect "\"acceptedThrough\":\"$last\"" "$work/published"
 echo "publish: $last frames taken"
 
-# The same by hand: the start, then a frame of two markers, the second of them not seen.
+# The same by hand: the start with two of the actor's markers, then a frame of them, the second of them not seen.
+ask "${operator[@]}" "$api/actors/reference" > "$work/actor"
+markers=$(grep -o '"markers":\[[^]]*' "$work/actor" | grep -o '"name":"[^"]*"' | head -n 2 | cut -d : -f 2 | paste -s -d , -)
 ask "${publisher[@]}" --json '{"sessionId": "curl-2", "actor": "actors/reference", "kind": "CAPTURE_KIND_MARKERS"}' \
   "$api/sessions" > "$work/session"
 ask "${publisher[@]}" --data-binary @- -H 'content-type: application/x-ndjson' \
-  "$api/sessions/curl-2/frames" > "$work/published" << 'LINES'
-{"start": {"publisher": "rig-1", "unit": "LENGTH_UNIT_MILLIMETER", "rateHz": 120, "markerNames": ["brow_inner_left", "chin"]}}
+  "$api/sessions/curl-2/frames" > "$work/published" << LINES
+{"start": {"publisher": "rig-1", "unit": "LENGTH_UNIT_MILLIMETER", "rateHz": 120, "markerNames": [$markers]}}
 {"frames": [{"number": "1", "captureTimeNanos": "8333333", "positions": [21.5, 32.0, 88.4, "NaN", "NaN", "NaN"]}]}
 LINES
 expect '"acceptedThrough":"1"' "$work/published"
+ask "${publisher[@]}" -X POST "$api/sessions/curl-2/end" > "$work/ended"
 echo "by hand: one frame taken"
 
 # Poll: `after` is the last sequence that was read, `run` the run that it counts in.

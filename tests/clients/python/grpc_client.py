@@ -166,6 +166,15 @@ def subscribe_to_the_latest(channel, last: int) -> None:
     print(f"latest: frame {newest.frame} at once, heartbeat in state {heartbeat.state.session_state}")
 
 
+def end_session(channel) -> None:
+    """Its id is free for a new run then, so that this client can be run again."""
+    from frontalis.v1 import session_pb2, session_pb2_grpc
+
+    request = session_pb2.EndSessionRequest(name="sessions/python")
+    session_pb2_grpc.SessionServiceStub(channel).EndSession(request, timeout=TIMEOUT_SECS)
+    print("end: the session ended")
+
+
 def refusal(channel):
     from frontalis.v1 import session_pb2, session_pb2_grpc
 
@@ -219,6 +228,7 @@ def main() -> None:
         last = publish(channel, arguments.frames)
         follow_every_frame(channel, last, cut_every=20)
         subscribe_to_the_latest(channel, last)
+        end_session(channel)
         refusal(channel)
         health_and_reflection(channel)
 

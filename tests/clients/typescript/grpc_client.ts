@@ -212,6 +212,13 @@ async function refusal(transport: Transport, door: string): Promise<void> {
   console.log(`refusal over ${door}: ${Code[error.code]}, ${error.rawMessage}`);
 }
 
+// Its id is free for a new run then, so that this client can be run again.
+async function endSession(): Promise<void> {
+  const { session } = await createClient(SessionService, grpc).endSession({ name: SESSION });
+  assert.equal(session?.name, SESSION);
+  console.log(`end: ${session.name}`);
+}
+
 async function main(): Promise<void> {
   await server(grpc, "grpc");
   await server(grpcWeb, "grpc-web");
@@ -221,6 +228,7 @@ async function main(): Promise<void> {
   await showWithCredits(async () => (last = await publish()));
   const samples = await resume(grpc, "grpc", last);
   assert.deepEqual(await resume(grpcWeb, "grpc-web", last), samples);
+  await endSession();
   await refusal(grpc, "grpc");
   await refusal(grpcWeb, "grpc-web");
 }

@@ -282,6 +282,45 @@ async fn f4_readers_that_make_no_room_cost_little_and_hold_up_nobody() {
 }
 
 #[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn f4_a_follower_of_the_newest_that_lives_and_does_not_read_goes_on_when_it_reads() {
+    const SESSION: &str = "sessions/control";
+    // Twice what a peer's machine has to answer, in frames of the control session.
+    const FRAMES: u64 = 480;
+    let change = |config: &mut Config| {
+        config.transport.keepalive_interval_secs = 1;
+        config.transport.keepalive_timeout_secs = 1;
+    };
+    beside_a_control_session_with("F4 events", change, async |stage| {
+        let socket = tokio::net::TcpSocket::new_v4().unwrap();
+        socket.set_recv_buffer_size(4096).unwrap();
+        let mut stalled = socket.connect(stage.server.address()).await.unwrap();
+        let request = format!(
+            "GET /api/v1/{SESSION}/events?maxRateHz=1000&withMarkers=true HTTP/1.1\r\nHost: localhost\r\n\r\n"
+        );
+        stalled.write_all(request.as_bytes()).await.unwrap();
+        let received = async || {
+            let session = stage.server.session(SESSION).await;
+            session.status.unwrap().frames_received
+        };
+        let target = received().await + FRAMES;
+        assert_eventually!(received().await >= target);
+        assert_eq!(n_subscribers(stage, SESSION).await, 5);
+        let mut lines = tokio::io::AsyncBufReadExt::lines(tokio::io::BufReader::new(stalled));
+        let fresh = async {
+            while let Some(line) = lines.next_line().await.unwrap() {
+                let sequence = line.strip_prefix("id: ").and_then(|it| it.split(':').nth(1));
+                if sequence.is_some_and(|it| it.parse::<u64>().unwrap() >= target) {
+                    return;
+                }
+            }
+            panic!("the stream ended");
+        };
+        timeout(PATIENCE, fresh).await.unwrap();
+    })
+    .await;
+}
+
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
 async fn f11_ten_thousand_connects_disturb_nobody() {
     let server = TestServer::start_program(|_| {}).await;
     beside_a_control_session_of("F11 connects", server, async |stage| {

@@ -35,8 +35,9 @@ const RESPONSES_OF_AN_END: usize = 3;
 
 /// Follows a session's curves: every event is one `SubscribeResponse`.
 ///
-/// The id of an event is `run:sequence` of its last sample. A client of every frame that comes back with it, as
-/// `EventSource` does, goes on behind it. A failure is an event named `problem`, and the last.
+/// The id of an event is `run:sequence` of its last sample, that of the last event of a session that ended
+/// `run:sequence:end`: take it as it is. A client of every frame that comes back with an id, as `EventSource` does, goes
+/// on behind it; one that comes back with that of the end is answered 204. A failure is an event named `problem`, and the last.
 #[utoipa::path(
     get,
     path = "/api/v1/sessions/{id}/events",

@@ -30,6 +30,11 @@ pub(super) trait Incoming: Message + DeserializeOwned + Default + Send + 'static
     ///
     /// When it names another one.
     fn place(&mut self, session: &str) -> Result<(), Status>;
+
+    /// Whether who sends this may stop reading for as long as it likes (CONTRACTS D-15).
+    fn may_pause(&self) -> bool {
+        false
+    }
 }
 
 impl Incoming for v1::PublishMarkersRequest {
@@ -52,6 +57,11 @@ impl Incoming for v1::SubscribeRequest {
             return Ok(());
         };
         place(&mut start.session, session)
+    }
+
+    fn may_pause(&self) -> bool {
+        let latest = |it: &v1::SubscribeStart| it.delivery() != v1::Delivery::EveryFrame;
+        self.start.as_ref().is_some_and(latest)
     }
 }
 

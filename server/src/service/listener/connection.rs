@@ -25,6 +25,7 @@ use super::{
     lingering::Lingering,
     liveness::Liveness,
     tls::{Handshake, Tls},
+    watched::Watched,
 };
 use crate::{
     config::Config,
@@ -102,6 +103,7 @@ impl Connections {
             certificate: None,
             open: OpenConnection::new(permit, self.tasks.token()),
         };
+        let stream = self.liveness.watch(stream);
         let connections = self.clone();
         self.tasks.spawn(async move {
             match &connections.tls {
@@ -111,7 +113,7 @@ impl Connections {
         });
     }
 
-    async fn serve_tls(&self, tls: &Tls, stream: TcpStream, about: About) {
+    async fn serve_tls(&self, tls: &Tls, stream: Watched, about: About) {
         let shaken = tokio::select! {
             shaken = tls.accept(stream, self.handshake_deadline) => shaken,
             () = self.phases.closing.cancelled() => return,

@@ -1,13 +1,15 @@
 //! How a connection whose peer has vanished is found, whatever it speaks (CONTRACTS D-25, BAD_INPUT F3).
 //!
 //! HTTP/2 has pings of its own. HTTP/1 that streams, and what it is upgraded to, rely on the system: a connection on
-//! which nothing is sent is probed, and one whose peer takes nothing of what is sent is given up after the same time.
+//! which nothing is on its way is probed by it, any other is [`Watched`]. A peer that lives and does not read is no such
+//! peer, and is kept (D-15).
 
 use std::{io, time::Duration};
 
 use socket2::{SockRef, TcpKeepalive};
 use tokio::net::TcpStream;
 
+use super::watched::Watched;
 use crate::config::Transport;
 
 /// Probes of a silent connection within the time for an answer.
@@ -42,10 +44,12 @@ impl Liveness {
         // Samples are small and late ones worthless: nothing may wait for more to send.
         stream.set_nodelay(true)?;
         let socket = SockRef::from(stream);
-        socket.set_tcp_keepalive(&self.probes)?;
-        #[cfg(any(target_os = "linux", target_os = "android"))]
-        socket.set_tcp_user_timeout(Some(self.patience))?;
-        Ok(())
+        socket.set_tcp_keepalive(&self.probes)
+    }
+
+    /// From here on a vanished peer is found while something is on its way to it, too.
+    pub(super) fn watch(&self, stream: TcpStream) -> Watched {
+        Watched::new(stream, self.patience)
     }
 }
 
@@ -67,10 +71,8 @@ mod tests {
         let probing =
             socket.tcp_keepalive_interval().unwrap() * socket.tcp_keepalive_retries().unwrap();
         assert_eq!(probing, Duration::from_secs(10));
+        // It would end a connection whose peer lives and does not read.
         #[cfg(target_os = "linux")]
-        assert_eq!(
-            socket.tcp_user_timeout().unwrap(),
-            Some(Duration::from_secs(15))
-        );
+        assert_eq!(socket.tcp_user_timeout().unwrap(), None);
     }
 }

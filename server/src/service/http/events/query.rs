@@ -54,7 +54,8 @@ pub(in super::super) struct EventsQuery {
 #[into_params(parameter_in = Header)]
 #[expect(dead_code, reason = "only describes the header")]
 pub(super) struct LastEventId {
-    /// `run:sequence`, the id of the last event that the client has; empty: none.
+    /// The id of the last event that the client has: `run:sequence`, or `run:sequence:end` of an ended session's last
+    /// one; empty: none.
     #[param(
         rename = "last-event-id",
         required = false,

@@ -101,7 +101,7 @@ fn curve_event() -> Value {
             "id": {
                 "type": "string",
                 "pattern": "^[0-9]+:[0-9]+(:end)?$",
-                "description": "`run:sequence` of the last sample in it.",
+                "description": "`run:sequence` of the last sample in it; `run:sequence:end` with `end`.",
             },
             "event": {
                 "type": "string",

@@ -200,6 +200,9 @@ where
             (Message::Ping(_) | Message::Pong(_) | Message::Frame(_), _) => return None,
         };
         let placed = read.and_then(|mut it: I| it.place(&self.topic.session).map(|()| it));
+        if placed.as_ref().is_ok_and(I::may_pause) {
+            self.patience.allow_pauses();
+        }
         self.pass(placed);
         None
     }

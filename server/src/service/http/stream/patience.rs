@@ -1,6 +1,7 @@
 //! How long a WebSocket's peer may keep silent, take for a message, or not read; and how often it may ping.
 //!
-//! BAD_INPUT E13 (no pong, ping flood), F4 and F5. Looked at once a second, so that a message costs no timer.
+//! BAD_INPUT E13 (no pong, ping flood), F4 and F5. A subscriber of the newest sample may stop reading for as long as it
+//! likes (CONTRACTS D-15): a peer that has vanished is found by its machine's silence, below this. Looked at once a second, so that a message costs no timer.
 
 use std::{
     io,
@@ -56,6 +57,7 @@ pub(super) struct Patience {
     /// When the message that is under way was first seen.
     begun_at: Option<Instant>,
     blocked_since: Option<Instant>,
+    may_pause: bool,
     controls_since: Instant,
     n_controls: u32,
 }
@@ -69,9 +71,15 @@ impl Patience {
             n_settled: 0,
             begun_at: None,
             blocked_since: None,
+            may_pause: false,
             controls_since: now,
             n_controls: 0,
         }
+    }
+
+    /// From now on the peer may read nothing, and so answer no ping, for any time.
+    pub(super) fn allow_pauses(&mut self) {
+        self.may_pause = true;
     }
 
     /// A message came when `n_read` bytes had been read.
@@ -111,6 +119,10 @@ impl Patience {
             self.heard_at = now;
         }
         let longer = |since: Option<Instant>, limit| since.is_some_and(|it| now - it >= limit);
+        if self.may_pause {
+            self.heard_at = now;
+            self.blocked_since = None;
+        }
         if longer(self.blocked_since, BLOCKED) {
             return Verdict::Cut;
         }

@@ -3,7 +3,8 @@
 use std::{
     convert::Infallible,
     pin::Pin,
-    sync::atomic::{AtomicUsize, Ordering},
+    sync::{Mutex, PoisonError},
+    time::Duration,
 };
 
 use axum::{
@@ -15,7 +16,7 @@ use bytes::Bytes;
 use frontalis_proto::v1;
 use futures::{Stream, stream};
 use serde_json::{Value, json};
-use tokio::sync::mpsc;
+use tokio::{sync::mpsc, time::Instant};
 use tonic::Status;
 
 use crate::service::{
@@ -23,11 +24,14 @@ use crate::service::{
     http::problem::Problem,
 };
 
-/// A line says so much more than the one before, unless the stage is another.
-const STEP_BYTES: usize = 1 << 20;
+/// A line says so much more than the one before, unless [`STEP_TIME`] has passed or the stage is another.
+const STEP_BYTES: usize = 256 * 1024;
+
+/// From one line to the next while bytes come.
+const STEP_TIME: Duration = Duration::from_millis(250);
 
 /// More lines than a package of the largest size has.
-const MAX_LINES: usize = 128;
+const MAX_LINES: usize = 320;
 
 type Running = Pin<Box<dyn Future<Output = Result<v1::ImportActorResponse, Status>> + Send>>;
 
@@ -43,7 +47,7 @@ where
 {
     let (said, heard) = mpsc::channel(MAX_LINES);
     let steps = Steps {
-        last: AtomicUsize::new(0),
+        last: Mutex::new((0, Instant::now())),
         said,
     };
     let running = import.run(chunks, move |now| steps.tell(now));
@@ -64,18 +68,28 @@ where
 
 /// Of all that an import says, what makes a line.
 struct Steps {
-    last: AtomicUsize,
+    /// Bytes and time of the line before.
+    last: Mutex<(usize, Instant)>,
     said: mpsc::Sender<Progress>,
 }
 
 impl Steps {
     fn tell(&self, now: Progress) {
-        let step = now.received_bytes / STEP_BYTES;
-        let is_news = self.last.swap(step, Ordering::Relaxed) != step;
-        let is_line = is_news || now.stage != ImportStage::Receiving;
-        if is_line && self.said.try_send(now).is_err() {
+        if self.is_line(now) && self.said.try_send(now).is_err() {
             tracing::debug!("a line of progress is left out");
         }
+    }
+
+    fn is_line(&self, now: Progress) -> bool {
+        let mut last = self.last.lock().unwrap_or_else(PoisonError::into_inner);
+        let (bytes, at) = *last;
+        let is_line = now.received_bytes >= bytes + STEP_BYTES
+            || at.elapsed() >= STEP_TIME
+            || now.stage != ImportStage::Receiving;
+        if is_line {
+            *last = (now.received_bytes, Instant::now());
+        }
+        is_line
     }
 }
 
@@ -129,5 +143,33 @@ impl Lines {
                 json!({ "error": Problem::from(status).document(&self.instance) })
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn received(received_bytes: usize) -> Progress {
+        Progress {
+            received_bytes,
+            ..Progress::default()
+        }
+    }
+
+    #[tokio::test(start_paused = true)]
+    async fn a_line_comes_every_256_kib_and_when_the_line_before_is_old() {
+        let (said, mut heard) = mpsc::channel(MAX_LINES);
+        let steps = Steps {
+            last: Mutex::new((0, Instant::now())),
+            said,
+        };
+        steps.tell(received(STEP_BYTES - 1));
+        assert!(heard.try_recv().is_err());
+        steps.tell(received(STEP_BYTES));
+        assert_eq!(heard.try_recv(), Ok(received(STEP_BYTES)));
+        tokio::time::advance(STEP_TIME).await;
+        steps.tell(received(STEP_BYTES + 16));
+        assert_eq!(heard.try_recv(), Ok(received(STEP_BYTES + 16)));
     }
 }

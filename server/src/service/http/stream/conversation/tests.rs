@@ -165,6 +165,27 @@ async fn f4_a_peer_that_talks_and_does_not_read_is_cut_after_thirty_seconds() {
 }
 
 #[tokio::test(start_paused = true)]
+async fn d15_a_subscriber_of_the_newest_sample_may_stop_reading_for_any_time() {
+    for (delivery, may_pause) in [("DELIVERY_LATEST", true), ("DELIVERY_EVERY_FRAME", false)] {
+        for responses in [
+            stream::pending().boxed(),
+            stream::repeat_with(|| Ok(v1::SubscribeResponse::default())).boxed(),
+        ] {
+            let (talking, mut io) = talk(responses, 512);
+            let start = format!(r#"{{"start":{{"delivery":"{delivery}"}}}}"#);
+            let head = [0x81, 0x80 | u8::try_from(start.len()).unwrap(), 0, 0, 0, 0];
+            io.write_all(&[&head[..], start.as_bytes()].concat())
+                .await
+                .unwrap();
+            sleep(Duration::from_secs(600)).await;
+            assert_eq!(talking.is_finished(), !may_pause, "{delivery}");
+            drop(io);
+            talking.await.unwrap();
+        }
+    }
+}
+
+#[tokio::test(start_paused = true)]
 async fn e13_what_breaks_the_protocol_has_the_close_code_of_its_kind() {
     let text = |opcode: u8, payload: &[u8]| {
         let n = u8::try_from(payload.len()).unwrap();
