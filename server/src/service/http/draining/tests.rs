@@ -32,7 +32,7 @@ async fn ask(
     pause: Duration,
     shape: impl FnOnce(&mut Request),
 ) -> (usize, String, Duration) {
-    let (taken, n_taken) = std::sync::mpsc::channel();
+    let (taken, n_taken) = std::sync::mpsc::sync_channel(4_096);
     let pieces = stream::iter(0..n_pieces).then(move |_| {
         let taken = taken.clone();
         async move {
