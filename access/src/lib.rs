@@ -28,7 +28,7 @@ mod token_file;
 mod unix_time;
 
 pub use certificate::{CertificateRule, CertificateSubject};
-pub use issuer::{Algorithm, Issuer};
+pub use issuer::{Algorithm, Issuer, KeyError};
 pub use principal::{Principal, Refused};
 pub use role::{Role, UnknownRole};
 pub use scope::{Scope, ScopeError};

@@ -1,7 +1,8 @@
 //! The audit log: who did what, from where, with which result (CONTRACTS S-12).
 //!
 //! One line of JSON an entry, each with the hash of the one before; written by one task in the order of the entries.
-//! Nobody waits for it: beyond [`CAPACITY`] entries are counted instead of kept, and the next line says how many.
+//! Nobody waits for it: when too many wait for the disk, entries are counted instead of kept, and the next line says how
+//! many.
 
 mod chain;
 mod log;
