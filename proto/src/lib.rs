@@ -9,7 +9,7 @@
 mod field_mask;
 mod timestamp;
 
-pub use field_mask::FieldMask;
+pub use field_mask::{FieldMask, json_name};
 pub use timestamp::Timestamp;
 
 /// Version 1 of the protocol.

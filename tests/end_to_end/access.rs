@@ -1,5 +1,7 @@
 //! Tokens in use: limits of failures and creations, a token file that changes, leases of principals, the audit log.
 
+mod role_first;
+
 use frontalis_access::{Role, Token};
 use frontalis_proto::v1::{
     CaptureKind, CreateSessionRequest, EndSessionRequest, GetServerRequest, Ingest, LengthUnit,

@@ -66,7 +66,7 @@ async fn take(server: &TestServer, way_in: In) -> Vec<Vec<u8>> {
             .unwrap()
             .subscribers
             .len()
-            == 5
+            == 6
     );
     let status = server.session(&session).await.status.unwrap();
     let mut protocols: Vec<_> = status
@@ -77,7 +77,14 @@ async fn take(server: &TestServer, way_in: In) -> Vec<Vec<u8>> {
     protocols.sort_unstable();
     assert_eq!(
         protocols,
-        ["grpc", "grpc-web", "sse", "websocket", "websocket"]
+        [
+            "grpc",
+            "grpc-web",
+            "grpc-web",
+            "sse",
+            "websocket",
+            "websocket"
+        ]
     );
     publish(server, way_in, &id, &performance).await;
     assert_eventually!(server.session(&session).await.status.unwrap().last_frame == FRAMES);
@@ -140,15 +147,8 @@ async fn follow(server: &TestServer, id: &str) -> Vec<Following> {
         received
     });
 
-    let mut web = GrpcWeb::follow(server, &start).await;
-    let over_web = tokio::spawn(async move {
-        let mut received = Received::default();
-        while let Some(answer) = web.next().await {
-            received.take(answer);
-        }
-        assert!(web.trailers.contains("grpc-status:0"), "{}", web.trailers);
-        received
-    });
+    let over_web = follow_web(GrpcWeb::follow(server, &start).await);
+    let over_web_text = follow_web(GrpcWeb::follow_as_text(server, &start).await);
 
     let path = format!(
         "/api/v1/sessions/{id}/events?delivery=every_frame&fromOldest=true&withMarkers=true"
@@ -167,10 +167,22 @@ async fn follow(server: &TestServer, id: &str) -> Vec<Following> {
     vec![
         ("gRPC", over_grpc),
         ("gRPC-web", over_web),
+        ("gRPC-web as text", over_web_text),
         ("SSE", over_events),
         ("WebSocket, JSON", json),
         ("WebSocket, protobuf", protobuf),
     ]
+}
+
+fn follow_web(mut web: GrpcWeb) -> JoinHandle<Received> {
+    tokio::spawn(async move {
+        let mut received = Received::default();
+        while let Some(answer) = web.next().await {
+            received.take(answer);
+        }
+        assert!(web.trailers.contains("grpc-status:0"), "{}", web.trailers);
+        received
+    })
 }
 
 async fn follow_socket(

@@ -55,32 +55,18 @@ pub fn samples_in_a_response(n_muscles: usize, n_markers: usize, detail: SampleD
     (RESPONSE_BYTES / n_bytes).max(1)
 }
 
-/// Why a subscriber's request is refused.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum SubscribeRefusal {
-    /// A field is wrong.
-    #[error(transparent)]
-    Invalid(#[from] FieldError),
-    /// Asked for something that this version does not do.
-    #[error("{what} is not implemented")]
-    NotImplemented {
-        /// What was asked for.
-        what: &'static str,
-    },
-}
-
 /// Checks a subscriber's start, which came over `protocol`; `peer` names a subscriber that gives no name. `credits` are ignored where the subscriber
 /// cannot return them.
 ///
 /// # Errors
 ///
-/// [`SubscribeRefusal`] names the first field that is wrong or not implemented.
+/// [`FieldError`] names the first field that is wrong or not implemented.
 pub fn start(
     sent: &v1::SubscribeStart,
     peer: String,
     protocol: &'static str,
     can_return_credits: bool,
-) -> Result<SubscribeRequest, SubscribeRefusal> {
+) -> Result<SubscribeRequest, FieldError> {
     let session = SessionId::from_resource(&sent.session).map_err(FieldError::name("session"))?;
     let name = DisplayName::parse("subscriber", &sent.subscriber)
         .map_err(FieldError::name("subscriber"))?;
@@ -122,15 +108,15 @@ const READ_SAMPLES: [u32; 2] = [100, 1_000];
 ///
 /// # Errors
 ///
-/// [`SubscribeRefusal`] names the first field that is wrong or not implemented.
-pub fn read(sent: &v1::ReadCurvesRequest) -> Result<ReadRequest, SubscribeRefusal> {
+/// [`FieldError`] names the first field that is wrong or not implemented.
+pub fn read(sent: &v1::ReadCurvesRequest) -> Result<ReadRequest, FieldError> {
     let [usual, most] = READ_SAMPLES;
     let limit = match sent.limit {
         0 => usual,
         limit if limit <= most => limit,
         _ => {
             let detail = "at most 1,000 samples are read at once";
-            return Err(FieldError::unusable("limit", "LIMIT", detail).into());
+            return Err(FieldError::unusable("limit", "LIMIT", detail));
         }
     };
     Ok(ReadRequest {
@@ -142,28 +128,21 @@ pub fn read(sent: &v1::ReadCurvesRequest) -> Result<ReadRequest, SubscribeRefusa
     })
 }
 
-fn detail(with_uncertainty: bool, with_markers: bool) -> Result<SampleDetail, SubscribeRefusal> {
+fn detail(with_uncertainty: bool, with_markers: bool) -> Result<SampleDetail, FieldError> {
     if with_uncertainty {
-        return Err(SubscribeRefusal::NotImplemented {
-            what: "with_uncertainty",
-        });
+        let problem = FieldProblem::NotImplemented;
+        return Err(FieldError::new("with_uncertainty", problem));
     }
     Ok(SampleDetail { with_markers })
 }
 
-fn check_control_space(number: i32) -> Result<(), SubscribeRefusal> {
-    match v1::ControlSpace::try_from(number) {
-        Ok(v1::ControlSpace::Unspecified | v1::ControlSpace::Muscles) => Ok(()),
-        Ok(v1::ControlSpace::Facs) => Err(SubscribeRefusal::NotImplemented {
-            what: "CONTROL_SPACE_FACS",
-        }),
-        Ok(v1::ControlSpace::Arkit) => Err(SubscribeRefusal::NotImplemented {
-            what: "CONTROL_SPACE_ARKIT",
-        }),
-        Err(_unknown) => {
-            Err(FieldError::new("control_space", FieldProblem::UnknownEnum(number)).into())
-        }
-    }
+fn check_control_space(number: i32) -> Result<(), FieldError> {
+    let problem = match v1::ControlSpace::try_from(number) {
+        Ok(v1::ControlSpace::Unspecified | v1::ControlSpace::Muscles) => return Ok(()),
+        Ok(v1::ControlSpace::Facs | v1::ControlSpace::Arkit) => FieldProblem::NotImplemented,
+        Err(_unknown) => FieldProblem::UnknownEnum(number),
+    };
+    Err(FieldError::new("control_space", problem))
 }
 
 fn delivery(sent: &v1::SubscribeStart, can_return_credits: bool) -> Result<Delivery, FieldError> {

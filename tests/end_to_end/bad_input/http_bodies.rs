@@ -73,7 +73,6 @@ async fn d12_json_bodies_that_are_not_strict_are_refused() {
             "{\"unknownField\":1}",
             "{'actor':'x'}",
             "{\"actor\":\"x\",}",
-            "{\"kind\":\"CAPTURE_KIND_NOTHING\"}",
             "// comment\n{}",
             "\u{feff}{}",
         ];

@@ -84,7 +84,15 @@ impl CurvesGrpc {
             peer.address_name(),
             peer.door.name(),
             can_return_credits,
-        )?;
+        )
+        // Who can return credits sends the start as a part of a message.
+        .map_err(|error| {
+            if can_return_credits {
+                error.inside("start")
+            } else {
+                error
+            }
+        })?;
         peer.caller.may_in(Action::Subscribe, &request.session)?;
         let session = in_process(&self.registry, &self.store, &request.session).await?;
         let mut subscription = session.hub().subscribe(request.spec)?;

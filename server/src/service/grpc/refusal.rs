@@ -30,7 +30,7 @@ impl From<FieldError> for Status {
             | FieldProblem::PageToken => Code::InvalidArgument,
         };
         Refusal::new(code, error.reason(), error.to_string())
-            .with("field", &error.field())
+            .with("field", &error.path())
             .into_status()
     }
 }

@@ -14,7 +14,7 @@ use super::{
 
 /// Which samples.
 #[derive(Deserialize, IntoParams)]
-#[serde(deny_unknown_fields, rename_all = "camelCase")]
+#[serde(rename_all = "camelCase")]
 #[into_params(parameter_in = Query)]
 pub(super) struct CurvesQuery {
     /// The run that `after` counts in; 0: the current one.

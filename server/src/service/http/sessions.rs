@@ -10,28 +10,33 @@ use frontalis_proto::v1::{self, session_service_server::SessionService as _};
 
 use super::{
     Doors,
-    call::{Answer, Call, Message, PathFields},
+    call::{Answer, BodyMessage, Call, Message},
     openapi::{BodyRefusals, ObjectRefusals, Refusals, StateRefusals},
     problem::Problem,
     query::{ListQuery, SessionPath},
 };
+use crate::service::access::Action;
 
-impl PathFields for v1::CreateSessionRequest {
+impl BodyMessage for v1::CreateSessionRequest {
+    const ACTION: Action = Action::CreateSession;
     const IN_PATH: &'static [&'static str] = &[];
     const MAY_BE_ABSENT: bool = false;
 }
 
-impl PathFields for v1::UpdateSessionRequest {
+impl BodyMessage for v1::UpdateSessionRequest {
+    const ACTION: Action = Action::ChangeSession;
     const IN_PATH: &'static [&'static str] = &["name"];
     const MAY_BE_ABSENT: bool = false;
 }
 
-impl PathFields for v1::RecenterSessionRequest {
+impl BodyMessage for v1::RecenterSessionRequest {
+    const ACTION: Action = Action::ChangeSession;
     const IN_PATH: &'static [&'static str] = &["name"];
     const MAY_BE_ABSENT: bool = true;
 }
 
-impl PathFields for v1::EndSessionRequest {
+impl BodyMessage for v1::EndSessionRequest {
+    const ACTION: Action = Action::EndSession;
     const IN_PATH: &'static [&'static str] = &["name"];
     const MAY_BE_ABSENT: bool = true;
 }

@@ -39,15 +39,22 @@ const FIELDS: [&str; 13] = [
 ///
 /// # Errors
 ///
-/// The first field or path that is refused, by name.
+/// The first field or path that is refused, by its name in a request that holds them as `settings`.
 pub fn apply(
     asked: &v1::SessionSettings,
     mask: &[String],
     base: &SessionSettings,
 ) -> Result<SessionSettings, FieldError> {
     check_mask(mask)?;
-    let change = Change { mask };
-    refuse_what_is_not_built(&change, asked)?;
+    changed(asked, &Change { mask }, base).map_err(|error| error.inside("settings"))
+}
+
+fn changed(
+    asked: &v1::SessionSettings,
+    change: &Change<'_>,
+    base: &SessionSettings,
+) -> Result<SessionSettings, FieldError> {
+    refuse_what_is_not_built(change, asked)?;
     let default = SessionSettings::default();
     let mut next = base.clone();
     let (marker, default_marker) = (&mut next.marker, &default.marker);

@@ -3,7 +3,7 @@
 use frontalis_proto::v1;
 use serde_json::{Value, json};
 
-use crate::service::http::call::PathFields;
+use crate::service::http::call::BodyMessage;
 
 /// `actors/ID`.
 const ACTOR: &str = "^actors/[a-z0-9][a-z0-9_-]{0,62}$";

@@ -36,6 +36,7 @@ fn talk(
         let topic = Topic {
             session: "sessions/one".into(),
             instance: "/here".into(),
+            taken: Taken::none("message"),
             form: Form::Json,
             limit_bytes: LIMIT_BYTES,
             finishes: false,
