@@ -52,6 +52,11 @@ runner:
 .PHONY: clients
 clients: python node schemathesis-program
 
+# Read by the clients of tests/clients when a person runs them.
+.PHONY: client-files
+client-files: ## An actor and a take for the clients of tests/clients, in ./client-files
+	cargo run --quiet --package frontalis-tests --bin client-files -- client-files
+
 .PHONY: python
 python:
 	@$(MAKE) --no-print-directory .venv/ready \

@@ -2,7 +2,7 @@
 //!
 //! The rules are those of `ARCHITECTURE.md`, "Dependency rules".
 
-mod sources;
+pub mod sources;
 
 use std::{
     collections::{BTreeMap, BTreeSet},

@@ -5,6 +5,7 @@ mod access;
 mod access_matrix;
 mod api_page;
 mod bad_input;
+mod citations;
 mod clients;
 mod command_line;
 mod curl_refusals;

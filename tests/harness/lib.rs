@@ -8,6 +8,7 @@
     reason = "a test that fails here is its own report"
 )]
 
+mod client_files;
 mod control_session;
 mod cost;
 mod doors;
@@ -32,6 +33,7 @@ mod subscriber;
 mod tls;
 mod vanishing;
 
+pub use client_files::ClientFiles;
 pub use control_session::{ControlReport, ControlSession};
 pub use cost::Cost;
 pub use doors::{

@@ -268,4 +268,4 @@ fn certificate_word(reason: &CertificateError) -> &'static str {
 }
 
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;

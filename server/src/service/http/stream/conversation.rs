@@ -11,7 +11,7 @@ use std::{
 };
 
 use bytes::Bytes;
-use futures::{SinkExt as _, Stream, StreamExt as _, channel::mpsc};
+use futures::{FutureExt as _, SinkExt as _, Stream, StreamExt as _, channel::mpsc};
 use serde::Serialize;
 use tokio::{
     io::{AsyncRead, AsyncReadExt as _, AsyncWrite, AsyncWriteExt as _},
@@ -177,7 +177,10 @@ where
         }
         if self.is_writing {
             match self.socket.poll_flush_unpin(cx) {
-                Poll::Ready(Ok(())) => self.is_writing = false,
+                Poll::Ready(Ok(())) => {
+                    self.is_writing = false;
+                    self.patience.took();
+                }
                 Poll::Ready(Err(_gone)) => return Poll::Ready(Event::Gone),
                 Poll::Pending => {}
             }
@@ -266,7 +269,15 @@ where
             Verdict::Wait => None,
             Verdict::Ping => self.send(Message::Ping(Bytes::new())),
             Verdict::End(status) => Some(End::Failed(status)),
-            Verdict::Cut => Some(End::Gone),
+            Verdict::Blocked => Some(self.give_up()),
+        }
+    }
+
+    /// The stream may have last words, for a peer that reads again just now.
+    fn give_up(&mut self) -> End {
+        match self.responses.next().now_or_never() {
+            Some(Some(Err(status))) => End::Failed(status),
+            _ => End::Gone,
         }
     }
 

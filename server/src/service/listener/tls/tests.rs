@@ -8,20 +8,20 @@ use tempfile::TempDir;
 use super::*;
 
 /// A folder with a certificate for these names.
-struct Folder(TempDir);
+pub(in crate::service::listener) struct Folder(TempDir);
 
 impl Folder {
-    fn with(names: &[&str]) -> Self {
+    pub(in crate::service::listener) fn with(names: &[&str]) -> Self {
         let folder = Self(tempfile::tempdir().unwrap());
         folder.write_cert(&certified(names));
         folder
     }
 
-    fn path(&self, name: &str) -> String {
+    pub(in crate::service::listener) fn path(&self, name: &str) -> String {
         self.0.path().join(name).to_str().unwrap().to_owned()
     }
 
-    fn paths(&self) -> config::Tls {
+    pub(in crate::service::listener) fn paths(&self) -> config::Tls {
         config::Tls {
             cert: self.path("cert.pem"),
             key: self.path("key.pem"),
