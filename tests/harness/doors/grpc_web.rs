@@ -1,5 +1,6 @@
 //! gRPC-web over HTTP/1.1: length-prefixed messages, and the trailers as the last of them.
 
+use frontalis_access::Token;
 use frontalis_proto::v1::{SubscribeResponse, SubscribeStart};
 use http_body_util::Full;
 use hyper::{Request, body::Bytes};
@@ -21,13 +22,22 @@ pub struct GrpcWeb {
 impl GrpcWeb {
     /// Calls `CurveService.Follow`.
     pub async fn follow(server: &TestServer, start: &SubscribeStart) -> Self {
+        Self::follow_as(server, None, start).await
+    }
+
+    /// The same with a token.
+    pub async fn follow_as(
+        server: &TestServer,
+        token: Option<&Token>,
+        start: &SubscribeStart,
+    ) -> Self {
         let message = start.encode_to_vec();
         let n_bytes = u32::try_from(message.len()).unwrap();
         let body = [&[0], &n_bytes.to_be_bytes()[..], &message].concat();
         let request = Request::post("/frontalis.v1.CurveService/Follow")
             .header("content-type", "application/grpc-web+proto")
             .header("x-grpc-web", "1");
-        let answer = exchange(server, request, Full::new(Bytes::from(body))).await;
+        let answer = exchange(server, token, request, Full::new(Bytes::from(body))).await;
         assert_eq!(answer.status(), 200);
         assert_eq!(
             answer.headers()["content-type"],
