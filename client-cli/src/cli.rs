@@ -5,6 +5,7 @@ use clap::{Parser, Subcommand};
 use crate::commands::{
     ConnectionArgs,
     actor::ActorCommand,
+    audit::AuditCommand,
     completions::CompletionsArgs,
     demo::DemoArgs,
     login::{LoginArgs, LogoutArgs},
@@ -70,6 +71,9 @@ pub enum Command {
     /// Make, list and take back the tokens of a server, on its own machine
     #[command(subcommand)]
     Token(TokenCommand),
+    /// Check a server's audit log, on its own machine or a copy
+    #[command(subcommand)]
+    Audit(AuditCommand),
     /// Print the completion script of a shell
     Completions(CompletionsArgs),
 }
@@ -118,6 +122,7 @@ mod tests {
             "frontalis token create --token-file tokens.toml --name Anna --role operator --images",
             "frontalis token list --token-file tokens.toml --json",
             "frontalis token revoke t-5f0c2a91 --token-file tokens.toml --yes",
+            "frontalis audit verify /var/lib/frontalis/audit.log --json",
             "frontalis completions bash",
         ] {
             if let Err(error) = parse(line) {

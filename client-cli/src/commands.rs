@@ -1,6 +1,7 @@
 //! One module a command, and what they share.
 
 pub mod actor;
+pub mod audit;
 pub mod completions;
 mod context;
 pub mod demo;
@@ -42,6 +43,7 @@ pub async fn run(context: &Context, command: Command) -> anyhow::Result<ExitCode
         Command::Login(args) => login::login(context, args).await,
         Command::Logout(args) => login::logout(context, &args).await,
         Command::Token(command) => token::run(context, command).await,
+        Command::Audit(command) => audit::run(context, &command),
         Command::Server(args) => server::run(context, args).await,
         Command::Completions(args) => completions::run(&args),
     }

@@ -1,4 +1,4 @@
-//! The command line against a protected server: tokens made, a login kept, refusals explained.
+//! The command line against a protected server: tokens made, a login kept, refusals explained; and its audit log.
 
 use std::{
     io::Write as _,
@@ -6,6 +6,7 @@ use std::{
     process::{Command, Output, Stdio},
 };
 
+use frontalis_server::service::audit::FILE_NAME;
 use harness::{Protection, TestServer, program};
 use serde_json::Value;
 use tempfile::TempDir;
@@ -54,16 +55,16 @@ impl Person {
 
     async fn does_with(&self, line: &str, input: &str) -> String {
         let output = self.types(line, input).await;
-        let complained = text(&output.stderr);
+        let complained = text_of(&output.stderr);
         assert!(output.status.success(), "{line}\n{complained}");
-        text(&output.stdout)
+        text_of(&output.stdout)
     }
 
     /// A line that fails; what it complained.
     async fn fails(&self, line: &str) -> String {
         let output = self.types(line, "").await;
         assert_eq!(output.status.code(), Some(1), "{line}");
-        text(&output.stderr)
+        text_of(&output.stderr)
     }
 
     fn login_file(&self) -> PathBuf {
@@ -170,11 +171,39 @@ async fn a_server_without_tls_is_told_from_one_with_it() {
     server.stop().await;
 }
 
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn an_audit_log_is_verified_and_the_first_line_that_was_tampered_with_is_named() {
+    let (anna, server) = (Person::new(), TestServer::with_session("take-1").await);
+    server.end_session("sessions/take-1").await;
+    let folder = server.stop().await;
+    let log = folder.path().join(FILE_NAME);
+    let verify = format!("audit verify {}", log.display());
+    let said = anna.does(&verify).await;
+    assert!(said.contains("3 lines; the chain holds"), "{said}");
+
+    let text = std::fs::read_to_string(&log).unwrap();
+    std::fs::write(&log, text.replace("session_create", "session_created")).unwrap();
+    let output = anna.types(&verify, "").await;
+    let said = text_of(&output.stdout);
+    assert_eq!(output.status.code(), Some(1), "{said}");
+    assert!(said.contains("3 lines; line 2 is not"), "{said}");
+    let output = anna.types(&format!("{verify} --json"), "").await;
+    let report: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(output.status.code(), Some(1), "{report}");
+    assert_eq!(
+        (&report["lines"], &report["firstBrokenLine"]),
+        (&"3".into(), &"2".into())
+    );
+
+    let complained = anna.fails("audit verify nowhere/audit.log").await;
+    assert!(complained.contains("nowhere/audit.log"), "{complained}");
+}
+
 fn mode(path: &Path) -> u32 {
     use std::os::unix::fs::PermissionsExt as _;
     std::fs::metadata(path).unwrap().permissions().mode() & 0o777
 }
 
-fn text(bytes: &[u8]) -> String {
+fn text_of(bytes: &[u8]) -> String {
     String::from_utf8_lossy(bytes).into_owned()
 }

@@ -4,6 +4,7 @@
 mod access;
 mod access_matrix;
 mod api_page;
+mod audit;
 mod bad_input;
 mod citations;
 mod clients;

@@ -14,6 +14,7 @@ mod cost;
 mod doors;
 mod eventually;
 mod http;
+mod issuer;
 mod keys;
 mod load;
 mod package;
@@ -41,6 +42,7 @@ pub use doors::{
     SocketFrames, StalledDoors, WebSocket,
 };
 pub use http::{HttpAnswer, http_get, http_send};
+pub use issuer::TestIssuer;
 pub use keys::{Bearer, Keys, now};
 pub use load::{LoadProfile, LoadReport};
 pub use package::{PackageFiles, glb, reference_package, toy_files, toy_glb, toy_json, zip};

@@ -1,6 +1,7 @@
 //! gRPC-web over HTTP/1.1: length-prefixed messages, and the trailers as the last of them; as bytes, or as base64 text.
 
 use base64::{Engine as _, engine::general_purpose::STANDARD};
+use frontalis_access::Token;
 use frontalis_proto::v1::{SubscribeResponse, SubscribeStart};
 use http_body_util::Full;
 use hyper::{Request, body::Bytes};
@@ -24,24 +25,33 @@ pub struct GrpcWeb {
 impl GrpcWeb {
     /// Calls `CurveService.Follow` with messages as bytes.
     pub async fn follow(server: &TestServer, start: &SubscribeStart) -> Self {
+        Self::follow_as(server, None, start).await
+    }
+
+    /// The same with a token.
+    pub async fn follow_as(
+        server: &TestServer,
+        token: Option<&Token>,
+        start: &SubscribeStart,
+    ) -> Self {
         let body = encoded(start);
-        Self::call(server, "application/grpc-web+proto", body).await
+        Self::call(server, token, "application/grpc-web+proto", body).await
     }
 
     /// The same with messages as text, which is what browsers without binary streams send.
     pub async fn follow_as_text(server: &TestServer, start: &SubscribeStart) -> Self {
         let body = STANDARD.encode(encoded(start)).into_bytes();
-        let mut web = Self::call(server, "application/grpc-web-text+proto", body).await;
+        let mut web = Self::call(server, None, "application/grpc-web-text+proto", body).await;
         web.decoded = Some(Vec::new());
         web
     }
 
-    async fn call(server: &TestServer, kind: &str, body: Vec<u8>) -> Self {
+    async fn call(server: &TestServer, token: Option<&Token>, kind: &str, body: Vec<u8>) -> Self {
         let request = Request::post("/frontalis.v1.CurveService/Follow")
             .header("content-type", kind)
             .header("accept", kind)
             .header("x-grpc-web", "1");
-        let answer = exchange(server, request, Full::new(Bytes::from(body))).await;
+        let answer = exchange(server, token, request, Full::new(Bytes::from(body))).await;
         assert_eq!(answer.status(), 200);
         assert_eq!(answer.headers()["content-type"], kind);
         let headers = answer.headers().iter();
