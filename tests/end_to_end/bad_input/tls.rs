@@ -7,7 +7,6 @@ use harness::{ClientCert, TestAuthority, TestServer, TestTls, assert_eventually}
 use rustls::{ClientConnection, pki_types::ServerName};
 use tokio::{
     io::{AsyncReadExt as _, AsyncWriteExt as _},
-    net::TcpStream,
     process::Command,
     time::timeout,
 };
