@@ -160,7 +160,8 @@ mod tests {
         let mut reasons = BTreeSet::new();
         let server = Path::new(env!("CARGO_MANIFEST_DIR"));
         let with_arms = [&MAKERS[..], &[ARM]].concat();
-        collect(&server.join("src/service"), &with_arms, &mut reasons);
+        collect(&server.join("src/service"), &MAKERS, &mut reasons);
+        collect(&server.join("src/service/grpc"), &with_arms, &mut reasons);
         collect(
             &server.join("src/wire/invalid.rs"),
             &with_arms,
