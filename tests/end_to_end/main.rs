@@ -18,4 +18,5 @@ mod layering;
 mod load;
 mod openapi;
 mod real_takes;
+mod recentering;
 mod restart;

@@ -65,6 +65,9 @@ fn field(message: &str, field: &FieldDescriptorProto, comment: &str, read: bool)
     }
     if field.label() == Label::Repeated {
         schema = json!({ "type": "array", "items": schema });
+        if let Some(most) = limits::max_items(message, field.name()) {
+            schema["maxItems"] = json!(most);
+        }
     } else if read && may_be_null(field) {
         schema = json!({ "oneOf": [{ "type": "null" }, schema] });
     }
