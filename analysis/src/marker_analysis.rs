@@ -6,5 +6,8 @@ mod evidence;
 mod head_motion;
 mod marker_model;
 pub mod neutral;
+pub mod neutral_watch;
+pub mod objective;
+pub mod range;
 pub mod settings;
 mod still_problem;

@@ -20,4 +20,5 @@ mod layering;
 mod load;
 mod openapi;
 mod real_takes;
+mod recentering;
 mod restart;

