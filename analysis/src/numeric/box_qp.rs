@@ -122,6 +122,26 @@ impl BoxQp {
         self.largest_diagonal = diagonal.fold(0.0, |largest: f64, &it| largest.max(it));
     }
 
+    /// Q in full, columns [`BoxQp::stride`] apart.
+    pub fn hessian(&self) -> &[f64] {
+        &self.hessian
+    }
+
+    /// Whether the last solution has the unknown between its bounds.
+    pub fn is_free(&self, unknown: usize) -> bool {
+        self.is_free[unknown] > 0.0
+    }
+
+    /// ½ xᵀQx − cᵀx.
+    pub fn objective(&self, c: &[f64], x: &[f64]) -> f64 {
+        let columns = self.hessian.chunks_exact(self.stride.max(1));
+        let terms = columns.zip(c).zip(x).map(|((column, c), x_i)| {
+            let product: f64 = column.iter().zip(x).map(|(q, x)| q * x).sum();
+            x_i * (0.5 * product - c)
+        });
+        terms.sum()
+    }
+
     /// The interval of one unknown; `lower == upper` fixes it.
     ///
     /// # Panics
