@@ -140,6 +140,9 @@ impl ContractionSolver {
                 *it = it.clamp(*lower, *upper);
             }
         }
+        if let (Some(estimated), Some(before)) = (&mut self.estimated, &before.estimated) {
+            estimated.continue_from(before);
+        }
         self.motion = before.motion;
         self.frames_since_pose = before.frames_since_pose;
         self.head_known = self.stabilize_head && before.head_known;
@@ -268,19 +271,15 @@ impl ContractionSolver {
             decay: self.decay,
             elapsed: self.frames_since_pose.unwrap_or(1) as f64,
         };
-        match estimated.solve(&mut frame, &mut self.motion, &mut self.x) {
-            Ok(report) => {
-                self.frames_since_pose = Some(0);
-                self.head_known = self.stabilize_head;
-                self.kkt_residual = report.kkt_residual;
-                true
-            }
-            Err(_) => {
-                self.x.copy_from_slice(&self.before);
-                self.hold_all(HeldReason::SolverBudget);
-                false
-            }
-        }
+        let Ok(report) = estimated.solve(&mut frame, &mut self.motion, &mut self.x) else {
+            self.x.copy_from_slice(&self.before);
+            self.hold_all(HeldReason::SolverBudget);
+            return false;
+        };
+        self.frames_since_pose = Some(0);
+        self.head_known = self.stabilize_head;
+        self.kkt_residual = report.kkt_residual;
+        true
     }
 
     fn hold_all(&mut self, reason: HeldReason) {

@@ -75,7 +75,7 @@ impl Diagnosis {
     /// Counts a frame; whether it is to be looked at.
     pub fn is_due(&mut self) -> bool {
         self.n_frames += 1;
-        self.n_frames % self.every == 0
+        self.n_frames.is_multiple_of(self.every)
     }
 
     /// Takes in a frame.

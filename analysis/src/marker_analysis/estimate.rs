@@ -58,6 +58,8 @@ pub(super) struct Estimator {
     rate_hz: f64,
     /// Lower and upper bound of each muscle.
     boxes: Vec<[f64; 2]>,
+    /// The same in this frame: what is held is fixed.
+    bounds: Vec<[f64; 2]>,
     qp: BoxQp,
     equations: NormalEquations,
     coupling: Coupling,
@@ -117,6 +119,7 @@ impl Estimator {
             has_motion,
             rate_hz,
             boxes: boxes.to_vec(),
+            bounds: boxes.to_vec(),
             equations: NormalEquations::new(model, has_motion, qp.stride()),
             coupling: Coupling::new(model, muscles, objective, size),
             prior,
@@ -142,6 +145,18 @@ impl Estimator {
         self.rate_hz = rate_hz;
         if let Some(prior) = &mut self.prior {
             prior.set_rate_hz(rate_hz);
+        }
+    }
+
+    /// Takes over what the estimator that this one replaces knew of the noise and the contractions.
+    pub fn continue_from(&mut self, before: &Self) {
+        self.noise.continue_from(&before.noise);
+        if self.standard_errors.len() != before.standard_errors.len() {
+            return;
+        }
+        self.standard_errors.clone_from(&before.standard_errors);
+        if let (Some(prior), Some(before)) = (&mut self.prior, &before.prior) {
+            prior.continue_from(before);
         }
     }
 
@@ -206,15 +221,11 @@ impl Estimator {
 
     fn begin(&mut self, frame: &mut Frame<'_>, motion: &Stabilizer, x: &[f64]) {
         for (i, part) in frame.evidence.parts.iter().enumerate() {
-            let [lower, upper] = self.boxes[i];
+            let own = self.boxes[i];
             self.expected[i] = x[i];
-            match part {
-                Part::Held => self.qp.set_bounds(i, x[i], x[i]),
-                Part::Solved => self.qp.set_bounds(i, lower, upper),
-                Part::Unobserved => {
-                    self.expected[i] = (x[i] * frame.decay).max(lower);
-                    self.qp.set_bounds(i, lower, upper);
-                }
+            self.bounds[i] = if *part == Part::Held { [x[i]; 2] } else { own };
+            if *part == Part::Unobserved {
+                self.expected[i] = (x[i] * frame.decay).max(own[0]);
             }
         }
         if let Some(prior) = &mut self.prior {
@@ -301,17 +312,19 @@ impl Estimator {
             return Err(BoxQpError::NotConvex);
         }
         self.add_sparsity(variance);
+        for (i, [lower, upper]) in self.bounds.iter().enumerate() {
+            self.qp.set_bounds(i, *lower, *upper);
+        }
         let m = x.len();
         self.unknowns[..m].copy_from_slice(x);
         self.unknowns[m..].fill(0.0);
         let report = self.qp.solve(&self.linear, &mut self.unknowns)?;
-        let boxes = &self.boxes;
         let report = self.coupling.separate(
             &mut self.qp,
             &self.linear,
             &mut self.unknowns,
             report,
-            |muscle| boxes[muscle],
+            &self.bounds,
         )?;
         x.copy_from_slice(&self.unknowns[..m]);
         Ok(report)
@@ -360,7 +373,7 @@ impl Estimator {
         self.posterior
             .find(hessian, stride, &self.free)
             .map_err(|_| BoxQpError::NotConvex)?;
-        self.find_standard_errors();
+        self.find_standard_errors(x);
         if let Some(prior) = &mut self.prior {
             let n_muscles = self.free.partition_point(|it| *it < x.len());
             let hessian = self.qp.hessian();
@@ -375,18 +388,33 @@ impl Estimator {
         Ok(())
     }
 
-    fn find_standard_errors(&mut self) {
+    /// What the posterior says, with two things that it does not know: the prior's share of the information was itself learnt
+    /// from the frame, and counts half; and where a face moves the prior holds the solution back.
+    fn find_standard_errors(&mut self, x: &[f64]) {
         let (hessian, stride) = (self.qp.hessian(), self.qp.stride());
-        let mut free = self.free.iter().enumerate().peekable();
-        let noise = self.noise.variance();
+        let muscles = &self.free[..self.free.partition_point(|it| *it < x.len())];
+        let pull = match &mut self.prior {
+            Some(prior) if prior.is_known() => prior.pull(x, &self.expected),
+            _ => &[],
+        };
+        let (noise, changing) = (self.noise.variance(), self.noise.changing_variance());
+        let mut free = muscles.iter().enumerate().peekable();
         for (i, it) in self.standard_errors.iter_mut().enumerate() {
-            let variance = match free.next_if(|(_, unknown)| **unknown == i) {
-                Some((place, _)) => self.posterior.variance(place),
-                None => self
-                    .posterior
-                    .variance_of_bound(hessian, stride, &self.free, i),
+            let mut lag = 0.0;
+            let place = free.next_if(|(_, unknown)| **unknown == i);
+            let variance = if let Some((place, _)) = place {
+                let row = self.posterior.row(place).iter().zip(muscles);
+                let pulls = row.map(|(c, j)| c * pull.get(*j).unwrap_or(&0.0));
+                lag = changing * pulls.sum::<f64>();
+                self.posterior.variance(place)
+            } else {
+                let posterior = &mut self.posterior;
+                posterior.variance_of_bound(hessian, stride, &self.free, i)
             };
-            *it = (noise * variance).sqrt().min(UNKNOWN);
+            let prior_share = 1.0 - self.equations.diagonal(i) / hessian[i * stride + i];
+            *it = (noise * variance * (1.0 + prior_share) + lag * lag)
+                .sqrt()
+                .min(UNKNOWN);
         }
     }
 }

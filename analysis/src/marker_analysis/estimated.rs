@@ -63,6 +63,17 @@ impl Estimated {
         }
     }
 
+    /// Takes over what the estimators that these replace knew.
+    pub fn continue_from(&mut self, before: &Self) {
+        self.whole.continue_from(&before.whole);
+        if let (Some(apart), Some(before)) = (&mut self.apart, &before.apart) {
+            apart.estimator.continue_from(&before.estimator);
+            if apart.whole_x.len() == before.whole_x.len() {
+                apart.whole_x.clone_from(&before.whole_x);
+            }
+        }
+    }
+
     /// The declared rate of the capture.
     pub fn set_rate_hz(&mut self, rate_hz: f64) {
         self.whole.set_rate_hz(rate_hz);

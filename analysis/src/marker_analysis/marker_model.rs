@@ -27,8 +27,6 @@ pub(super) struct MarkerModel {
     pub expected: [usize; 2],
     /// Virtual markers of the neutral face, centimeters.
     pub rest: Vec<Vector3<f64>>,
-    /// The same, x y z of each after the other.
-    pub rest_by_rows: Vec<f64>,
     /// D by rows: entry `(3 * marker + axis) * n_muscles + muscle`, centimeters.
     pub rows: Vec<f64>,
     /// D by columns: entry `muscle * 3 * n_markers + 3 * marker + axis`, centimeters.
@@ -70,7 +68,6 @@ impl MarkerModel {
             .map(|&it| basis.neutral[it].0.coords)
             .collect();
         let mut model = Self {
-            rest_by_rows: rest.iter().flatten().copied().collect(),
             rest,
             rows: vec![0.0; 3 * markers.len() * muscles.len()],
             columns: vec![0.0; 3 * markers.len() * muscles.len()],
@@ -166,7 +163,7 @@ impl MarkerModel {
         apart
     }
 
-    /// Adds `change` times one marker's DⱼᵀDⱼ to `gram`, whose columns are `stride` apart.
+    /// Adds `change` times one marker's `DⱼᵀDⱼ` to `gram`, whose columns are `stride` apart.
     pub fn change_gram(&self, gram: &mut [f64], stride: usize, j: usize, change: f64) {
         let support = self.marker_support[j].clone();
         for axis in 0..3 {

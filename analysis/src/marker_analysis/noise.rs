@@ -83,6 +83,11 @@ impl Noise {
         }
     }
 
+    /// Takes over the levels of the session's noise; what single markers left is not comparable any more.
+    pub fn continue_from(&mut self, before: &Self) {
+        (self.scatter, self.change) = (before.scatter, before.change);
+    }
+
     /// Standard deviation of a coordinate about what the basis explains, centimeters.
     pub fn sigma_cm(&self) -> f64 {
         self.scatter.variance.sqrt()

@@ -7,10 +7,10 @@
 //! Block pivoting may go in circles; the primal method takes over after a few steps and cannot: it walks towards the solution
 //! of the free unknowns, stops at the first bound in the way, and, once none is, releases the worst multiplier alone.
 
-use super::factor::Factor;
-
-/// Columns of Q are padded to a multiple of this, so that short loops have no remainder.
-pub const LANES: usize = 4;
+use super::{
+    factor::Factor,
+    lanes::{padded, subtract_multiple},
+};
 
 /// How far, relative to the largest diagonal entry of Q, a multiplier may have the wrong sign in a solution.
 pub const MULTIPLIER_TOLERANCE: f64 = 1e-11;
@@ -78,7 +78,7 @@ pub enum BoxQpError {
 impl BoxQp {
     /// A program of `m` unknowns, 0 ≤ x ≤ 1, whose Q is yet to be given.
     pub fn new(m: usize) -> Self {
-        let stride = m.next_multiple_of(LANES);
+        let stride = padded(m);
         Self {
             m,
             stride,
@@ -104,7 +104,7 @@ impl BoxQp {
         self.m
     }
 
-    /// Distance of the columns of Q: m, padded to a multiple of [`LANES`]; the padding is 0.
+    /// Distance of the columns of Q: m, padded to whole lanes; the padding is 0.
     pub fn stride(&self) -> usize {
         self.stride
     }
@@ -383,17 +383,6 @@ impl BoxQp {
             }
         }
         worst.0
-    }
-}
-
-/// `y -= a * x` for lengths that are multiples of [`LANES`].
-fn subtract_multiple(y: &mut [f64], a: f64, x: &[f64]) {
-    let (y, _) = y.as_chunks_mut::<LANES>();
-    let (x, _) = x.as_chunks::<LANES>();
-    for (y, x) in y.iter_mut().zip(x) {
-        for (y, x) in y.iter_mut().zip(x) {
-            *y -= a * x;
-        }
     }
 }
 

@@ -1,31 +1,37 @@
 //! The inverse of a small symmetric positive definite matrix, in buffers that are kept between calls.
 //!
-//! A = L D Lᵀ, A⁻¹ = L⁻ᵀ D⁻¹ L⁻¹: half the work of a general inverse, no square roots, every inner loop over contiguous rows.
+//! A = L D Lᵀ, A⁻¹ = L⁻ᵀ D⁻¹ L⁻¹: half the work of a general inverse, no square roots, every inner loop over whole lanes.
 //! Sums have a fixed order: the result does not depend on the processor's instruction set.
 
-use super::{dot::dot, factor::NotPositiveDefinite};
+use super::{
+    factor::{Factor, NotPositiveDefinite},
+    lanes::{padded, subtract_multiple},
+};
 
 /// Inverts matrices of up to `capacity` rows.
 #[derive(Clone, Debug)]
 pub struct SymmetricInverse {
-    capacity: usize,
-    /// Rows of L, `capacity` apart; the unit diagonal is left out.
-    rows: Vec<f64>,
-    inverse_rows: Vec<f64>,
-    inverse_diagonal: Vec<f64>,
-    /// One row of L D.
-    scaled: Vec<f64>,
+    factor: Factor,
+    /// 0, 1, 2, ...: all rows of a matrix.
+    all: Vec<usize>,
+    /// Distance of the rows below.
+    stride: usize,
+    /// L⁻¹ by rows, 0 beyond its diagonal.
+    lower: Vec<f64>,
+    /// The lower triangle of the inverse.
+    product: Vec<f64>,
 }
 
 impl SymmetricInverse {
     /// Buffers for matrices of up to `capacity` rows.
     pub fn with_capacity(capacity: usize) -> Self {
+        let stride = padded(capacity);
         Self {
-            capacity,
-            rows: vec![0.0; capacity * capacity],
-            inverse_rows: vec![0.0; capacity * capacity],
-            inverse_diagonal: vec![0.0; capacity],
-            scaled: vec![0.0; capacity],
+            factor: Factor::with_capacity(capacity),
+            all: (0..capacity).collect(),
+            stride,
+            lower: vec![0.0; capacity * stride],
+            product: vec![0.0; capacity * stride],
         }
     }
 
@@ -41,34 +47,14 @@ impl SymmetricInverse {
         n: usize,
         stride: usize,
     ) -> Result<(), NotPositiveDefinite> {
-        self.factor(matrix, n, stride)?;
+        self.factor.factor(matrix, stride, &self.all[..n], 0)?;
         self.invert_factor(n);
-        self.multiply(matrix, n, stride);
-        mirror(matrix, n, stride);
-        Ok(())
-    }
-
-    fn factor(
-        &mut self,
-        matrix: &[f64],
-        n: usize,
-        stride: usize,
-    ) -> Result<(), NotPositiveDefinite> {
+        self.multiply(n);
         for i in 0..n {
-            let source = &matrix[i * stride..][..=i];
-            let (done, row) = self.rows.split_at_mut(i * self.capacity);
-            let (row, scaled) = (&mut row[..i], &mut self.scaled[..i]);
-            let above = done.chunks_exact(self.capacity).zip(&self.inverse_diagonal);
-            for (j, (above, inverse)) in above.enumerate() {
-                let entry = source[j] - dot(&scaled[..j], &above[..j]);
-                scaled[j] = entry;
-                row[j] = entry * inverse;
+            for (j, value) in self.product[i * self.stride..][..=i].iter().enumerate() {
+                matrix[i * stride + j] = *value;
+                matrix[j * stride + i] = *value;
             }
-            let pivot = source[i] - dot(scaled, row);
-            if pivot.is_nan() || pivot <= 0.0 {
-                return Err(NotPositiveDefinite { pivot: i });
-            }
-            self.inverse_diagonal[i] = 1.0 / pivot;
         }
         Ok(())
     }
@@ -76,34 +62,32 @@ impl SymmetricInverse {
     /// Row i of L⁻¹ is eᵢ less the rows before it, as L says.
     fn invert_factor(&mut self, n: usize) {
         for i in 0..n {
-            let (done, row) = self.inverse_rows.split_at_mut(i * self.capacity);
-            let row = &mut row[..=i];
+            let row = &mut self.lower[i * self.stride..][..padded(i + 1)];
             row.fill(0.0);
             row[i] = 1.0;
-            for (k, above) in done.chunks_exact(self.capacity).enumerate() {
-                subtract_multiple(row, self.rows[i * self.capacity + k], &above[..=k]);
+        }
+        for k in 0..n {
+            let (done, below) = self.lower.split_at_mut((k + 1) * self.stride);
+            let lanes = ..padded(k + 1);
+            let row = &done[k * self.stride..][lanes];
+            let below = below.chunks_exact_mut(self.stride).take(n - k - 1);
+            for (i, other) in (k + 1..).zip(below) {
+                subtract_multiple(&mut other[lanes], self.factor.lower(i, k), row);
             }
         }
     }
 
     /// The lower triangle of Σ rₖᵀ rₖ / dₖ over the rows of L⁻¹.
-    fn multiply(&self, matrix: &mut [f64], n: usize, stride: usize) {
-        for (i, row) in matrix.chunks_mut(stride).take(n).enumerate() {
-            row[..=i].fill(0.0);
-        }
-        let rows = self.inverse_rows.chunks_exact(self.capacity.max(1));
-        for (k, (row, inverse)) in rows.zip(&self.inverse_diagonal).take(n).enumerate() {
-            for i in 0..=k {
-                let factor = -inverse * row[i];
-                subtract_multiple(&mut matrix[i * stride..], factor, &row[..=i]);
+    fn multiply(&mut self, n: usize) {
+        self.product[..n * self.stride].fill(0.0);
+        let rows = self.lower.chunks_exact(self.stride.max(1));
+        for (k, (row, inverse)) in rows.zip(self.factor.inverse_diagonal()).enumerate() {
+            let products = self.product.chunks_exact_mut(self.stride).take(k + 1);
+            for (i, product) in products.enumerate() {
+                let lanes = ..padded(i + 1);
+                subtract_multiple(&mut product[lanes], -inverse * row[i], &row[lanes]);
             }
         }
-    }
-}
-
-fn subtract_multiple(y: &mut [f64], a: f64, x: &[f64]) {
-    for (y, x) in y.iter_mut().zip(x) {
-        *y -= a * x;
     }
 }
 

@@ -1,6 +1,6 @@
 //! What a solved box QP says about the unknowns' uncertainty, given which of them are at a bound.
 //!
-//! With the objective a negative log-likelihood in units of the noise's variance, the free unknowns have covariance Q_FF⁻¹.
+//! With the objective a negative log-likelihood in units of the noise's variance, the free unknowns have covariance `Q_FF⁻¹`.
 //! An unknown at its bound has the variance that it would have if it alone were let go with them: the inverse of its Schur
 //! complement `Qᵢᵢ − Qᵢ_F Q_FF⁻¹ Q_Fᵢ`.
 
@@ -10,10 +10,10 @@ use super::{dot::dot, factor::NotPositiveDefinite, inverse::SymmetricInverse};
 #[derive(Clone, Debug)]
 pub struct Posterior {
     capacity: usize,
-    /// Q_FF⁻¹ in the order of the free set, rows `capacity` apart.
+    /// `Q_FF⁻¹` in the order of the free set, rows `capacity` apart.
     covariance: Vec<f64>,
     inverse: SymmetricInverse,
-    /// Q_Fᵢ of one bound unknown, and Q_FF⁻¹ times it.
+    /// `Q_Fᵢ` of one bound unknown.
     shared: Vec<f64>,
 }
 

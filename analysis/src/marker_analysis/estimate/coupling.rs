@@ -62,7 +62,9 @@ impl Coupling {
 
     /// Relaxes one muscle of each exclusive pair of which both are active in `solution`: the one that costs less.
     ///
-    /// Pair after pair, in their order. `box_of` gives a muscle's bounds, which `qp` has on entry and on return.
+    /// Pair after pair, in their order; what one pair relaxes may rouse another, so they are gone through until none is
+    /// violated. Each time a muscle more is relaxed, so this ends. `boxes` has the muscles' bounds, which `qp` has on entry; on
+    /// return it has what was relaxed fixed at 0.
     ///
     /// # Errors
     ///
@@ -73,31 +75,38 @@ impl Coupling {
         linear: &[f64],
         solution: &mut [f64],
         mut report: Report,
-        box_of: impl Fn(usize) -> [f64; 2],
+        boxes: &[[f64; 2]],
     ) -> Result<Report, BoxQpError> {
-        let is_open = |muscle: usize| box_of(muscle)[0] < box_of(muscle)[1];
-        for &[a, b] in &self.exclusive {
-            if !(solution[a] > 0.0 && solution[b] > 0.0 && is_open(a) && is_open(b)) {
-                continue;
-            }
+        let is_violated = |it: &&[usize; 2], solution: &[f64]| {
+            let is_open = |muscle: usize| boxes[muscle][0] < boxes[muscle][1];
+            it.iter()
+                .all(|&muscle| solution[muscle] > 0.0 && is_open(muscle))
+        };
+        while let Some(&[a, b]) = self.exclusive.iter().find(|it| is_violated(it, solution)) {
             self.other.copy_from_slice(solution);
-            qp.set_bounds(b, 0.0, 0.0);
-            let without_b = qp.solve(linear, &mut self.other)?;
-            qp.set_bounds(b, box_of(b)[0], box_of(b)[1]);
-            qp.set_bounds(a, 0.0, 0.0);
-            report = qp.solve(linear, solution)?;
+            let without_b = relax(qp, linear, &mut self.other, b)?;
+            qp.set_bounds(b, boxes[b][0], boxes[b][1]);
+            report = relax(qp, linear, solution, a)?;
             if qp.objective(linear, &self.other) < qp.objective(linear, solution) {
-                qp.set_bounds(a, box_of(a)[0], box_of(a)[1]);
+                qp.set_bounds(a, boxes[a][0], boxes[a][1]);
                 qp.set_bounds(b, 0.0, 0.0);
                 solution.copy_from_slice(&self.other);
                 report = without_b;
             }
         }
-        for &muscle in self.exclusive.iter().flatten() {
-            qp.set_bounds(muscle, box_of(muscle)[0], box_of(muscle)[1]);
-        }
         Ok(report)
     }
+}
+
+/// Solves with one muscle at 0.
+fn relax(
+    qp: &mut BoxQp,
+    linear: &[f64],
+    solution: &mut [f64],
+    muscle: usize,
+) -> Result<Report, BoxQpError> {
+    qp.set_bounds(muscle, 0.0, 0.0);
+    qp.solve(linear, solution)
 }
 
 /// The name of a left muscle's mirror image: `zygomatic_major_left` and `mouthSmileLeft`, `frontalis_L` alike.

@@ -1,7 +1,7 @@
 //! Weighted least squares over the contractions and a small motion of the head, as Q and c of a quadratic problem.
 //!
 //! Unknown are x, ω, τ of Zⱼ + ω × aⱼ + τ = pⱼ + Σ xᵢdᵢⱼ with the arm aⱼ = Zⱼ − c about a center c that is kept for the frame.
-//! Q is a sum over markers, Σ wⱼ KⱼᵀKⱼ. It is formed once a frame with every weight 1, from sums that stay the same for many
+//! Q is a sum over markers, `Σ wⱼ KⱼᵀKⱼ`. It is formed once a frame with every weight 1, from sums that stay the same for many
 //! frames; each round then adds only what the weights have changed. The arms of the first round serve all rounds: the head turns by
 //! little within a frame, and c, which decides where the solution is, is formed anew.
 

@@ -85,6 +85,15 @@ impl TemporalPrior {
         prior
     }
 
+    /// Takes over what was known of the same muscles.
+    pub fn continue_from(&mut self, before: &Self) {
+        self.volatility.clone_from(&before.volatility);
+        self.variance.clone_from(&before.variance);
+        self.linked.clone_from(&before.linked);
+        self.covariance.clone_from(&before.covariance);
+        self.state = before.state;
+    }
+
     pub fn set_rate_hz(&mut self, rate_hz: f64) {
         let step = LEAST_STEP_AT_30_HZ * self.step_scale;
         self.least_variance = step * step * 30.0 / rate_hz;
@@ -169,6 +178,12 @@ impl TemporalPrior {
         }
         self.inverse
             .invert(&mut self.precision, self.linked.len(), m)
+    }
+
+    /// Precision times the distance of `x` from where it was expected: the force with which the prior holds it back.
+    pub fn pull(&mut self, x: &[f64], expected: &[f64]) -> &[f64] {
+        self.find_pull(x, expected);
+        &self.pull
     }
 
     fn find_pull(&mut self, x: &[f64], expected: &[f64]) {
