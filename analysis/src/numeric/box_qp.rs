@@ -39,8 +39,10 @@ pub struct BoxQp {
     side: Vec<f64>,
     /// 1 where free, else 0.
     is_free: Vec<f64>,
-    /// The free unknowns, ascending.
+    /// The free unknowns, those that have been free for longest first.
     free: Vec<usize>,
+    /// Which are in `free`.
+    is_listed: Vec<bool>,
     /// The unknowns that are bound at another value than 0, ascending.
     offset: Vec<usize>,
     /// The last solution, as long as `side`, `free` and `offset` are those of it.
@@ -89,6 +91,7 @@ impl BoxQp {
             side: vec![0.0; m],
             is_free: vec![0.0; m],
             free: Vec::with_capacity(m),
+            is_listed: vec![false; m],
             offset: Vec::with_capacity(m),
             solution: None,
             factored: Vec::with_capacity(m),
@@ -278,14 +281,23 @@ impl BoxQp {
     }
 
     /// Lists the free unknowns, and those bound at another value than 0.
+    ///
+    /// What stays free keeps its place, what is newly free comes last: unknowns that flicker at a bound gather at the end, and
+    /// the factor of those before them stays good.
     fn list(&mut self, x: &[f64]) {
-        self.free.clear();
+        self.free.retain(|&i| {
+            self.is_listed[i] = self.is_free[i] > 0.0;
+            self.is_listed[i]
+        });
         self.offset.clear();
         for (i, (&x, &is_free)) in x.iter().zip(&self.is_free).enumerate() {
-            if is_free > 0.0 {
+            if is_free <= 0.0 {
+                if x != 0.0 {
+                    self.offset.push(i);
+                }
+            } else if !self.is_listed[i] {
+                self.is_listed[i] = true;
                 self.free.push(i);
-            } else if x != 0.0 {
-                self.offset.push(i);
             }
         }
     }

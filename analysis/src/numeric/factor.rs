@@ -7,7 +7,7 @@
 
 use super::{
     dot::dot,
-    lanes::{LANES, padded, subtract_multiple},
+    lanes::{LANES, padded, subtract_multiple, subtract_two},
 };
 
 /// U = L D by rows, unit lower triangular L times its diagonal, of at most `capacity` rows.
@@ -18,8 +18,8 @@ pub struct Factor {
     stride: usize,
     rows: Vec<f64>,
     inverse_diagonal: Vec<f64>,
-    /// One column of U; entries above its diagonal are 0.
-    column: Vec<f64>,
+    /// Two columns of U; entries above their diagonals are 0.
+    columns: [Vec<f64>; 2],
     /// b by the diagonal, and what the rows below take of it.
     scaled: Vec<f64>,
     taken: Vec<f64>,
@@ -42,7 +42,7 @@ impl Factor {
             stride,
             rows: vec![0.0; capacity * stride],
             inverse_diagonal: vec![0.0; capacity],
-            column: vec![0.0; stride],
+            columns: [0, 1].map(|_| vec![0.0; stride]),
             scaled: vec![0.0; stride],
             taken: vec![0.0; stride],
         }
@@ -70,14 +70,48 @@ impl Factor {
                 *to = from[index];
             }
         }
-        for k in 0..self.n {
-            self.eliminate(k, kept)?;
+        for k in (0..self.n).step_by(2) {
+            self.eliminate_pair(k, kept)?;
         }
         Ok(())
     }
 
-    /// Takes from the rows below `k`, except the first `kept`, what its pivot explains.
-    fn eliminate(&mut self, k: usize, kept: usize) -> Result<(), NotPositiveDefinite> {
+    /// Takes from the rows below `k`, except the first `kept`, what its pivot and the next one explain: two at a time, so that a
+    /// row is read and written half as often.
+    fn eliminate_pair(&mut self, k: usize, kept: usize) -> Result<(), NotPositiveDefinite> {
+        self.take_pivot(k, kept)?;
+        let next = k + 1;
+        if next == self.n {
+            return Ok(());
+        }
+        let first_lane = next / LANES * LANES;
+        self.read_column(k, first_lane, 0);
+        if next >= kept {
+            let taken = self.columns[0][next] * self.inverse_diagonal[k] * self.columns[0][next];
+            self.rows[next * self.stride + next] -= taken;
+        }
+        self.take_pivot(next, kept)?;
+        for i in next + 1..self.n {
+            // The entry below the second pivot, with what the first one takes of it.
+            let entry = &mut self.rows[i * self.stride + next];
+            if i >= kept {
+                *entry -= self.columns[0][i] * self.inverse_diagonal[k] * self.columns[0][next];
+            }
+        }
+        self.read_column(next, first_lane, 1);
+        self.columns[0][next] = 0.0;
+        let inverses = [self.inverse_diagonal[k], self.inverse_diagonal[next]];
+        let [first, second] = &self.columns;
+        for i in kept.max(next + 1)..self.n {
+            let lanes = first_lane..padded(i + 1);
+            let row = &mut self.rows[i * self.stride..][lanes.clone()];
+            let factors = [first[i] * inverses[0], second[i] * inverses[1]];
+            subtract_two(row, factors, [&first[lanes.clone()], &second[lanes]]);
+        }
+        Ok(())
+    }
+
+    fn take_pivot(&mut self, k: usize, kept: usize) -> Result<(), NotPositiveDefinite> {
         if k >= kept {
             let pivot = self.rows[k * self.stride + k];
             if pivot.is_nan() || pivot <= 0.0 {
@@ -85,18 +119,16 @@ impl Factor {
             }
             self.inverse_diagonal[k] = 1.0 / pivot;
         }
-        let first_lane = (k + 1) / LANES * LANES;
-        self.column[first_lane..=k].fill(0.0);
-        for i in k + 1..self.n {
-            self.column[i] = self.rows[i * self.stride + k];
-        }
-        let inverse = self.inverse_diagonal[k];
-        for i in kept.max(k + 1)..self.n {
-            let lanes = first_lane..padded(i + 1);
-            let row = &mut self.rows[i * self.stride..][lanes.clone()];
-            subtract_multiple(row, self.column[i] * inverse, &self.column[lanes]);
-        }
         Ok(())
+    }
+
+    /// Copies column `k` of U below its diagonal; what of the first lane is not below it is 0.
+    fn read_column(&mut self, k: usize, first_lane: usize, buffer: usize) {
+        let column = &mut self.columns[buffer];
+        column[first_lane..=k.max(first_lane)].fill(0.0);
+        for i in k + 1..self.n {
+            column[i] = self.rows[i * self.stride + k];
+        }
     }
 
     /// An entry of L below its diagonal.

@@ -50,6 +50,8 @@ pub(super) struct TemporalPrior {
     pull: Vec<f64>,
     /// Frames since the last one that was solved, this one included.
     elapsed: f64,
+    /// Whether q is still what every frame starts with.
+    is_wide: bool,
     state: State,
 }
 
@@ -79,6 +81,7 @@ impl TemporalPrior {
             inverse: SymmetricInverse::with_capacity(m),
             pull: vec![0.0; m],
             elapsed: 1.0,
+            is_wide: true,
             state: State::New,
         };
         prior.set_rate_hz(rate_hz);
@@ -116,6 +119,7 @@ impl TemporalPrior {
         let start = START_STEP * self.step_scale;
         self.step_variance.fill(start * start);
         self.elapsed = elapsed;
+        self.is_wide = true;
     }
 
     /// Whether there is something to say about this frame.
@@ -129,6 +133,7 @@ impl TemporalPrior {
             return;
         }
         self.find_pull(x, expected);
+        self.is_wide = false;
         let steps = self.step_variance.iter_mut().zip(&self.pull);
         for ((q, u), bar) in steps.zip(&self.volatility) {
             let step = *q * u;
@@ -171,6 +176,15 @@ impl TemporalPrior {
         for (i, it) in self.precision_diagonal.iter_mut().enumerate() {
             *it = 1.0 / (self.variance[i] + self.step_variance[i]);
         }
+        if self.is_wide {
+            // Beside the step that a frame starts with, what P links is nothing.
+            for (place, &i) in self.linked.iter().enumerate() {
+                let variance = self.covariance[place * m + place] + self.step_variance[i];
+                self.precision_diagonal[i] = 1.0 / variance;
+            }
+            self.precision.fill(0.0);
+            return Ok(());
+        }
         self.precision.copy_from_slice(&self.covariance);
         for (place, &i) in self.linked.iter().enumerate() {
             self.precision[place * m + place] += self.step_variance[i];
@@ -193,7 +207,7 @@ impl TemporalPrior {
         }
         for (row, &i) in self.precision.chunks_exact(m.max(1)).zip(&self.linked) {
             let steps = self.linked.iter().map(|&j| x[j] - expected[j]);
-            self.pull[i] = row.iter().zip(steps).map(|(p, step)| p * step).sum();
+            self.pull[i] += row.iter().zip(steps).map(|(p, step)| p * step).sum::<f64>();
         }
     }
 
