@@ -126,8 +126,9 @@ impl Factor {
     fn read_column(&mut self, k: usize, first_lane: usize, buffer: usize) {
         let column = &mut self.columns[buffer];
         column[first_lane..=k.max(first_lane)].fill(0.0);
-        for i in k + 1..self.n {
-            column[i] = self.rows[i * self.stride + k];
+        let rows = self.rows.chunks_exact(self.stride.max(1)).take(self.n);
+        for (to, row) in column.iter_mut().zip(rows).skip(k + 1) {
+            *to = row[k];
         }
     }
 
