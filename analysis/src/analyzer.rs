@@ -42,6 +42,9 @@ pub enum Progress {
     Aligned,
     /// One sample was appended.
     Solved,
+    /// The face is at another scale than before, so the unit has changed: no sample will come of this frame.
+    /// [`MarkerAnalyzer::scale_jump`] says by how much.
+    ScaleJump,
     /// One sample was appended; the new neutral face that was asked for could not be aligned, and the old one holds on.
     /// [`MarkerAnalyzer::recenter_error`] says why.
     RecenterFailed,
@@ -170,7 +173,11 @@ impl MarkerAnalyzer {
                 self.try_align(samples)
             }
             Stage::Solving(solving) => {
-                samples.push(solving.solve(&frame));
+                let sample = solving.solve(&frame);
+                if solving.solver.scale_jump().is_some() {
+                    return Ok(Progress::ScaleJump);
+                }
+                samples.push(sample);
                 Ok(match &mut solving.recentering {
                     None => Progress::Solved,
                     Some(frames) => {
@@ -277,6 +284,14 @@ impl MarkerAnalyzer {
             find_alignment(&self.actor, &quietest, self.unit).map_err(QuietestError::Alignment)?;
         self.realign(alignment, neutral);
         Ok(())
+    }
+
+    /// How many times the size of the face the last frame had, when that is another unit's doing.
+    pub fn scale_jump(&self) -> Option<f64> {
+        match &self.stage {
+            Stage::Solving(solving) => solving.solver.scale_jump(),
+            _ => None,
+        }
     }
 
     /// Why the new neutral face that was asked for last could not be aligned.

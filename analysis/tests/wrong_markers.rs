@@ -4,7 +4,7 @@
 use std::sync::{Arc, LazyLock};
 
 use frontalis_analysis::{
-    analyzer::{MarkerAnalyzer, MarkerSettings},
+    analyzer::{MarkerAnalyzer, MarkerSettings, Progress},
     curve::{CurveSample, HeldReason, Quality},
     face::{actor::Actor, marker::MarkerFrame},
     space::{LengthUnit, PerformancePoint},
@@ -257,5 +257,27 @@ fn frames_that_did_not_come_do_not_delay_what_comes_after_them() {
         .zip(&whole[SPOILED + 40].activations)
     {
         assert!((a - b).abs() < 0.1, "{a} {b}");
+    }
+}
+
+#[test]
+fn a_frame_in_another_unit_gives_no_sample_and_says_by_how_much() {
+    for factor in [0.001, 0.01, 0.1, 10.0] {
+        let mut frames = Performance::of(&actor(), CALM).frames;
+        for position in frames[SPOILED].positions.iter_mut().flatten() {
+            position.0 *= factor;
+        }
+        let (unit, settings) = (LengthUnit::Centimeter, MarkerSettings::default());
+        let mut analyzer = MarkerAnalyzer::new(actor(), settings, unit, 60.0);
+        let mut samples = Vec::new();
+        for (k, frame) in frames.iter().enumerate() {
+            let progress = analyzer.push(frame.clone(), &mut samples).unwrap();
+            if k == SPOILED {
+                assert_eq!(progress, Progress::ScaleJump);
+                let found = analyzer.scale_jump().unwrap();
+                assert!((found / factor - 1.0).abs() < 0.2, "{found} {factor}");
+            }
+        }
+        assert_eq!(samples.len(), frames.len() - 1);
     }
 }

@@ -72,6 +72,8 @@ pub struct ContractionSolver {
     head_known: bool,
     regions: [RegionOutcome; 2],
     kkt_residual: f64,
+    /// How many times the size of the face the last frame had, when it was not a face's.
+    scale_jump: Option<f64>,
 
     /// `None` only while a frame is solved.
     evidence: Option<Evidence>,
@@ -115,6 +117,7 @@ impl ContractionSolver {
             head_known: false,
             regions: [RegionOutcome::default(); 2],
             kkt_residual: 0.0,
+            scale_jump: None,
             evidence: Some(Evidence::new(&model, settings.region_mode)),
             joint: JointProblem::new(m),
             still: StillProblem::new(&model, settings.region_mode),
@@ -188,6 +191,7 @@ impl ContractionSolver {
         }
         self.kkt_residual = 0.0;
         self.head_known = false;
+        self.scale_jump = None;
         if !evidence.is_held() {
             self.solve_visible(&evidence);
         }
@@ -229,7 +233,8 @@ impl ContractionSolver {
     }
 
     fn solve_visible(&mut self, evidence: &Evidence) {
-        if evidence.is_degenerate(&self.aligned) {
+        self.scale_jump = evidence.scale_jump(&self.aligned);
+        if self.scale_jump.is_some() || evidence.is_degenerate(&self.aligned) {
             return self.hold_all(HeldReason::DegeneratePose);
         }
         let solved = if self.estimated.is_some() {
@@ -461,6 +466,11 @@ impl ContractionSolver {
     /// Whether the last frame was solved, at least a region of it.
     fn is_solved(&self) -> bool {
         self.regions.iter().any(|it| it.held.is_none())
+    }
+
+    /// How many times the size of the face the last frame had, when it was not a face's: another unit. It was held.
+    pub fn scale_jump(&self) -> Option<f64> {
+        self.scale_jump
     }
 
     /// One sigma of each contraction, in the actor's order.

@@ -22,6 +22,12 @@ const LEAST_SPREAD_CM: f64 = 0.05;
 /// The pose of a frame whose markers fill less than this share of the neutral volume is not determined.
 const LEAST_VOLUME_SHARE: f64 = 0.05;
 
+/// Sizes that the neutral face may seem to have, by expression, noise and what is hidden of it.
+const FACE_SIZES: std::ops::RangeInclusive<f64> = 0.5..=2.0;
+
+/// Markers that fill at least this share of the neutral volume at their own size have the shape of the face.
+const LIKE_A_FACE: f64 = 0.3;
+
 /// What a muscle does in this frame.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Part {
@@ -99,6 +105,32 @@ impl Evidence {
         self.find_sums(model);
         self.find_rest(model);
         true
+    }
+
+    /// How many times larger than the neutral face the markers at `positions` are, when that is no face's doing: the unit of the
+    /// capture has changed.
+    ///
+    /// What has not the shape of the neutral face at any size says nothing about its size.
+    pub fn scale_jump(&self, positions: &[Vector3<f64>]) -> Option<f64> {
+        let n = self.used.len() as f64;
+        let mean = self
+            .used
+            .iter()
+            .map(|&j| positions[j])
+            .sum::<Vector3<f64>>()
+            / n;
+        let (mut seen, mut rest) = (0.0, 0.0);
+        let mut covariance = Matrix3::zeros();
+        for &j in &self.used {
+            let arm = positions[j] - mean;
+            seen += arm.norm_squared();
+            rest += self.rest_arms[j].norm_squared();
+            covariance += self.rest_arms[j] * arm.transpose();
+        }
+        let ratio = (seen / rest).sqrt();
+        let is_face = covariance.determinant() > LIKE_A_FACE * self.rest_volume * ratio.powi(3);
+        let is_jump = is_face && self.rest_volume > 0.0 && !FACE_SIZES.contains(&ratio);
+        is_jump.then_some(ratio)
     }
 
     /// Whether neither region can be solved.

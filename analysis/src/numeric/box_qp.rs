@@ -45,8 +45,9 @@ pub struct BoxQp {
     is_listed: Vec<bool>,
     /// The unknowns that are bound at another value than 0, ascending.
     offset: Vec<usize>,
-    /// The last solution, as long as `side`, `free` and `offset` are those of it.
-    solution: Option<Vec<f64>>,
+    /// The last solution; `side`, `free` and `offset` are those of it while `is_settled`.
+    solution: Vec<f64>,
+    is_settled: bool,
     /// The free set that `factor` belongs to; empty when Q has changed since.
     factored: Vec<usize>,
     factor: Factor,
@@ -93,7 +94,8 @@ impl BoxQp {
             free: Vec::with_capacity(m),
             is_listed: vec![false; m],
             offset: Vec::with_capacity(m),
-            solution: None,
+            solution: vec![0.0; m],
+            is_settled: false,
             factored: Vec::with_capacity(m),
             factor: Factor::with_capacity(m),
             target: vec![0.0; stride],
@@ -154,7 +156,7 @@ impl BoxQp {
         assert!(lower.is_finite() && upper.is_finite() && lower <= upper);
         self.lower[unknown] = lower;
         self.upper[unknown] = upper;
-        self.solution = None;
+        self.is_settled = false;
     }
 
     /// Solves for `x`, which holds the start on entry (any values; they are moved into the box) and the solution on return.
@@ -163,15 +165,12 @@ impl BoxQp {
     ///
     /// When Q is not positive definite on the free unknowns, or the step limit is reached; `x` is then some point of the box.
     pub fn solve(&mut self, c: &[f64], x: &mut [f64]) -> Result<Report, BoxQpError> {
-        let known = self.solution.take();
-        if known.as_deref() != Some(x) {
+        if !std::mem::take(&mut self.is_settled) || self.solution != x {
             self.start(x);
         }
         let report = self.solve_started(c, x)?;
-        let mut solution = known.unwrap_or_default();
-        solution.clear();
-        solution.extend_from_slice(x);
-        self.solution = Some(solution);
+        self.solution.copy_from_slice(x);
+        self.is_settled = true;
         Ok(report)
     }
 
