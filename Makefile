@@ -119,6 +119,16 @@ deny-if-installed:
 	@if cargo deny --version >/dev/null 2>&1; then .ci/deny; \
 	else echo "left out: supply chain (make deny): cargo-deny is not installed"; fi
 
+# Longer than the tests: each target for FUZZ_SECONDS, on a nightly toolchain; what breaks is kept in fuzz/artifacts.
+FUZZ_SECONDS ?= 60
+FUZZ_TARGETS := marker_frames
+.PHONY: fuzz
+fuzz: ## Every fuzz target for FUZZ_SECONDS (a minute); needs the nightly toolchain
+	@cargo +nightly fuzz --version >/dev/null 2>&1 || cargo +nightly install --locked cargo-fuzz
+	@for target in $(FUZZ_TARGETS); do \
+	  cargo +nightly fuzz run $$target -- -max_total_time=$(FUZZ_SECONDS) -rss_limit_mb=2048 || exit 1; \
+	done
+
 .PHONY: bench
 bench: ## CPU time of the solve, the stage and the alignment, one thread
 	cargo bench --workspace --bench "*"
