@@ -68,7 +68,7 @@ use May::{Everywhere as E, Never as N, Own as O};
 use Target::{Actor, List, NewSession, Nothing, Session, SessionName};
 use Then::{Fails, Succeeds};
 
-const NOT_BUILT: Then = Fails("UNIMPLEMENTED");
+const NOT_BUILT: Then = Fails("NOT_IMPLEMENTED");
 
 /// S-4, the row in the comment behind each line.
 #[rustfmt::skip]

@@ -1,9 +1,6 @@
 //! What is asked for: a server with sessions and actors inside and outside of the callers' scope.
 
-use std::{
-    path::Path,
-    sync::atomic::{AtomicU32, Ordering},
-};
+use std::sync::atomic::{AtomicU32, Ordering};
 
 use harness::{TestAuthority, TestServer, assert_eventually, toy_files, zip};
 
@@ -79,10 +76,9 @@ impl Stage {
 
     /// The id that a call of this method shall name. What a method uses up is made for it alone.
     pub(super) async fn id_for(&self, method: &str, object: Object) -> String {
-        match (
-            Path::new(method).file_name().unwrap().to_str().unwrap(),
-            object,
-        ) {
+        // A plain page has no method behind it.
+        let name = method.rsplit('/').next().unwrap_or_default();
+        match (name, object) {
             ("CreateSession", Object::Own) => self.new_id("own-new-"),
             ("CreateSession", Object::Missing) => self.new_id("elsewhere-"),
             ("ImportActor", _) => "imported".to_owned(),

@@ -25,7 +25,7 @@ use super::{
     problem::Problem,
     query::SessionPath,
 };
-use crate::service::{grpc::capture::CaptureGrpc, peer::Peer};
+use crate::service::{access::Action, grpc::capture::CaptureGrpc, peer::Peer};
 
 const NDJSON: &str = "application/x-ndjson";
 
@@ -67,8 +67,11 @@ pub(super) async fn publish(
 ) -> Result<Response, Problem> {
     let peer = Peer::of(call.extensions());
     CaptureGrpc::admit(&peer.caller)?;
-    check_encoding(request.headers())?;
-    check_content_type(request.headers())?;
+    if let Err(problem) = check_form(request.headers()) {
+        // What cannot be read cannot say that it takes over, which is all that some callers may.
+        peer.caller.may(Action::Publish)?;
+        return Err(problem);
+    }
     let instance = request.uri().path().to_owned();
     let limit_bytes = doors.services.max_message_bytes;
     let lines = Lines::new(request.into_body().into_data_stream(), limit_bytes);
@@ -86,6 +89,11 @@ pub(super) async fn publish(
     headers.insert(header::CONTENT_TYPE, HeaderValue::from_static(NDJSON));
     headers.insert("x-accel-buffering", HeaderValue::from_static("no"));
     Ok(response)
+}
+
+fn check_form(headers: &HeaderMap) -> Result<(), Problem> {
+    check_encoding(headers)?;
+    check_content_type(headers)
 }
 
 /// A form of another site can send no such type, so that it must ask first.

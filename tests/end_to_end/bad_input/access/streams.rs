@@ -46,7 +46,7 @@ const PUBLISH_JSON: Form = (
 );
 const PUBLISH_PROTOBUF: Form = (
     "publish over a WebSocket, protobuf",
-    "frontalis.v1.publish+protobuf",
+    "frontalis.v1.publish+proto",
 );
 const SUBSCRIBE_JSON: Form = (
     "subscription over a WebSocket, JSON",
@@ -54,7 +54,7 @@ const SUBSCRIBE_JSON: Form = (
 );
 const SUBSCRIBE_PROTOBUF: Form = (
     "subscription over a WebSocket, protobuf",
-    "frontalis.v1.subscribe+protobuf",
+    "frontalis.v1.subscribe+proto",
 );
 
 /// One message, and then nothing, for as long as the other side likes.

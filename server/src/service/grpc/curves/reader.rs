@@ -68,6 +68,13 @@ impl Reader {
     }
 }
 
+impl Drop for Reader {
+    /// The subscriber's place is free at once, not when the watching task has been told.
+    fn drop(&mut self) {
+        *lock(&self.place) = Place::Asking;
+    }
+}
+
 impl Place {
     fn idle(subscription: Box<Subscription>) -> Self {
         Self::Idle {
