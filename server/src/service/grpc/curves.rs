@@ -1,7 +1,7 @@
 //! `CurveService`: curves out.
 //!
 //! A stream pulls from its subscription when its connection has room, so that nothing is queued for a subscriber that
-//! does not read (CONTRACTS D-14, D-19). It frees its place when it is dropped, and when its reader is [blocked](reader).
+//! does not read (CONTRACTS D-14, D-19). It frees its place when it is dropped, and when its reader is blocked.
 
 mod reader;
 
