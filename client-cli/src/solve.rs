@@ -129,9 +129,15 @@ pub fn solve_take(
                         frame: frame.number,
                         source,
                     })?;
+                if progress == Progress::ScaleJump {
+                    *solved.rejected.entry("SCALE_JUMP").or_default() += 1;
+                }
                 solved.unaligned_frames = match progress {
                     Progress::Waiting | Progress::Collecting { .. } => solved.unaligned_frames + 1,
-                    Progress::Aligned | Progress::Solved | Progress::RecenterFailed => 0,
+                    Progress::Aligned
+                    | Progress::Solved
+                    | Progress::ScaleJump
+                    | Progress::RecenterFailed => 0,
                 };
             }
             Err(reason) => *solved.rejected.entry(reason).or_default() += 1,

@@ -27,6 +27,16 @@ pub struct Timecode {
     #[prost(fixed32, tag = "9")]
     pub user_bits: u32,
 }
+impl ::prost::Name for Timecode {
+    const NAME: &'static str = "Timecode";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.Timecode".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.Timecode".into()
+    }
+}
 /// The head's own rigid motion since the neutral pose, in model space about its origin: p_now = R p_neutral + t.
 /// (The inverse of the transform that stabilizes the markers.)
 #[derive(Clone, Copy, PartialEq, ::prost::Message)]
@@ -47,6 +57,16 @@ pub struct HeadPose {
     pub ty_cm: f32,
     #[prost(float, tag = "7")]
     pub tz_cm: f32,
+}
+impl ::prost::Name for HeadPose {
+    const NAME: &'static str = "HeadPose";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.HeadPose".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.HeadPose".into()
+    }
 }
 /// Unit of the coordinates a capture system sends. Model space is always centimeters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
@@ -188,6 +208,16 @@ pub struct Actor {
     #[prost(string, tag = "11")]
     pub muscle_set: ::prost::alloc::string::String,
 }
+impl ::prost::Name for Actor {
+    const NAME: &'static str = "Actor";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.Actor".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.Actor".into()
+    }
+}
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct Muscle {
     /// "frontalis_left"
@@ -195,6 +225,16 @@ pub struct Muscle {
     pub name: ::prost::alloc::string::String,
     #[prost(enumeration = "FaceRegion", tag = "2")]
     pub region: i32,
+}
+impl ::prost::Name for Muscle {
+    const NAME: &'static str = "Muscle";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.Muscle".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.Muscle".into()
+    }
 }
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct Marker {
@@ -206,6 +246,16 @@ pub struct Marker {
     /// rides on the skull (headband, nose bridge); used for head motion, not for muscles
     #[prost(bool, tag = "3")]
     pub head_fixed: bool,
+}
+impl ::prost::Name for Marker {
+    const NAME: &'static str = "Marker";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.Marker".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.Marker".into()
+    }
 }
 /// What can be said of a basis without a performance.
 #[derive(Clone, PartialEq, ::prost::Message)]
@@ -219,6 +269,16 @@ pub struct BasisReport {
     #[prost(message, repeated, tag = "3")]
     pub ambiguous: ::prost::alloc::vec::Vec<MusclePair>,
 }
+impl ::prost::Name for BasisReport {
+    const NAME: &'static str = "BasisReport";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.BasisReport".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.BasisReport".into()
+    }
+}
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct MusclePair {
     #[prost(string, tag = "1")]
@@ -229,6 +289,16 @@ pub struct MusclePair {
     #[prost(double, tag = "3")]
     pub correlation: f64,
 }
+impl ::prost::Name for MusclePair {
+    const NAME: &'static str = "MusclePair";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.MusclePair".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.MusclePair".into()
+    }
+}
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct ImportActorRequest {
     /// first message only
@@ -236,6 +306,16 @@ pub struct ImportActorRequest {
     pub start: ::core::option::Option<ImportActorStart>,
     #[prost(bytes = "vec", tag = "2")]
     pub chunk: ::prost::alloc::vec::Vec<u8>,
+}
+impl ::prost::Name for ImportActorRequest {
+    const NAME: &'static str = "ImportActorRequest";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.ImportActorRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.ImportActorRequest".into()
+    }
 }
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct ImportActorStart {
@@ -251,12 +331,32 @@ pub struct ImportActorStart {
     #[prost(bool, tag = "4")]
     pub regularize: bool,
 }
+impl ::prost::Name for ImportActorStart {
+    const NAME: &'static str = "ImportActorStart";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.ImportActorStart".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.ImportActorStart".into()
+    }
+}
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct ImportActorResponse {
     #[prost(message, optional, tag = "1")]
     pub actor: ::core::option::Option<Actor>,
     #[prost(string, repeated, tag = "2")]
     pub warnings: ::prost::alloc::vec::Vec<::prost::alloc::string::String>,
+}
+impl ::prost::Name for ImportActorResponse {
+    const NAME: &'static str = "ImportActorResponse";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.ImportActorResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.ImportActorResponse".into()
+    }
 }
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct ExportActorRequest {
@@ -266,20 +366,60 @@ pub struct ExportActorRequest {
     #[prost(uint32, tag = "2")]
     pub revision: u32,
 }
+impl ::prost::Name for ExportActorRequest {
+    const NAME: &'static str = "ExportActorRequest";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.ExportActorRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.ExportActorRequest".into()
+    }
+}
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct ExportActorResponse {
     #[prost(bytes = "vec", tag = "1")]
     pub chunk: ::prost::alloc::vec::Vec<u8>,
+}
+impl ::prost::Name for ExportActorResponse {
+    const NAME: &'static str = "ExportActorResponse";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.ExportActorResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.ExportActorResponse".into()
+    }
 }
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct GetActorRequest {
     #[prost(string, tag = "1")]
     pub name: ::prost::alloc::string::String,
 }
+impl ::prost::Name for GetActorRequest {
+    const NAME: &'static str = "GetActorRequest";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.GetActorRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.GetActorRequest".into()
+    }
+}
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct GetActorResponse {
     #[prost(message, optional, tag = "1")]
     pub actor: ::core::option::Option<Actor>,
+}
+impl ::prost::Name for GetActorResponse {
+    const NAME: &'static str = "GetActorResponse";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.GetActorResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.GetActorResponse".into()
+    }
 }
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct ListActorsRequest {
@@ -288,12 +428,32 @@ pub struct ListActorsRequest {
     #[prost(string, tag = "2")]
     pub page_token: ::prost::alloc::string::String,
 }
+impl ::prost::Name for ListActorsRequest {
+    const NAME: &'static str = "ListActorsRequest";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.ListActorsRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.ListActorsRequest".into()
+    }
+}
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct ListActorsResponse {
     #[prost(message, repeated, tag = "1")]
     pub actors: ::prost::alloc::vec::Vec<Actor>,
     #[prost(string, tag = "2")]
     pub next_page_token: ::prost::alloc::string::String,
+}
+impl ::prost::Name for ListActorsResponse {
+    const NAME: &'static str = "ListActorsResponse";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.ListActorsResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.ListActorsResponse".into()
+    }
 }
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct DeleteActorRequest {
@@ -303,8 +463,28 @@ pub struct DeleteActorRequest {
     #[prost(bool, tag = "2")]
     pub with_takes: bool,
 }
+impl ::prost::Name for DeleteActorRequest {
+    const NAME: &'static str = "DeleteActorRequest";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.DeleteActorRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.DeleteActorRequest".into()
+    }
+}
 #[derive(Clone, Copy, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct DeleteActorResponse {}
+impl ::prost::Name for DeleteActorResponse {
+    const NAME: &'static str = "DeleteActorResponse";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.DeleteActorResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.DeleteActorResponse".into()
+    }
+}
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct ImproveBasisRequest {
     #[prost(string, tag = "1")]
@@ -324,6 +504,16 @@ pub struct ImproveBasisRequest {
     #[prost(enumeration = "ImproveMethod", tag = "6")]
     pub method: i32,
 }
+impl ::prost::Name for ImproveBasisRequest {
+    const NAME: &'static str = "ImproveBasisRequest";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.ImproveBasisRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.ImproveBasisRequest".into()
+    }
+}
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct ImproveBasisResponse {
     #[prost(uint32, tag = "1")]
@@ -337,6 +527,16 @@ pub struct ImproveBasisResponse {
     #[prost(message, optional, tag = "4")]
     pub actor: ::core::option::Option<Actor>,
 }
+impl ::prost::Name for ImproveBasisResponse {
+    const NAME: &'static str = "ImproveBasisResponse";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.ImproveBasisResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.ImproveBasisResponse".into()
+    }
+}
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct TrainRegionsRequest {
     #[prost(string, tag = "1")]
@@ -344,6 +544,16 @@ pub struct TrainRegionsRequest {
     /// image takes, one gesture each, labelled
     #[prost(string, repeated, tag = "2")]
     pub takes: ::prost::alloc::vec::Vec<::prost::alloc::string::String>,
+}
+impl ::prost::Name for TrainRegionsRequest {
+    const NAME: &'static str = "TrainRegionsRequest";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.TrainRegionsRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.TrainRegionsRequest".into()
+    }
 }
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct TrainRegionsResponse {
@@ -356,6 +566,16 @@ pub struct TrainRegionsResponse {
     /// last response only
     #[prost(message, optional, tag = "3")]
     pub actor: ::core::option::Option<Actor>,
+}
+impl ::prost::Name for TrainRegionsResponse {
+    const NAME: &'static str = "TrainRegionsResponse";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.TrainRegionsResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.TrainRegionsResponse".into()
+    }
 }
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
 #[repr(i32)]
@@ -1246,6 +1466,16 @@ pub struct SessionSettings {
     #[prost(message, repeated, tag = "16")]
     pub exclusive_pairs: ::prost::alloc::vec::Vec<ControlPair>,
 }
+impl ::prost::Name for SessionSettings {
+    const NAME: &'static str = "SessionSettings";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.SessionSettings".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.SessionSettings".into()
+    }
+}
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct ControlBounds {
     /// a muscle of the actor
@@ -1258,6 +1488,16 @@ pub struct ControlBounds {
     #[prost(float, tag = "3")]
     pub upper: f32,
 }
+impl ::prost::Name for ControlBounds {
+    const NAME: &'static str = "ControlBounds";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.ControlBounds".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.ControlBounds".into()
+    }
+}
 /// Two muscles of the actor, neither with a lower bound above 0.
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct ControlPair {
@@ -1265,6 +1505,16 @@ pub struct ControlPair {
     pub first: ::prost::alloc::string::String,
     #[prost(string, tag = "2")]
     pub second: ::prost::alloc::string::String,
+}
+impl ::prost::Name for ControlPair {
+    const NAME: &'static str = "ControlPair";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.ControlPair".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.ControlPair".into()
+    }
 }
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct Session {
@@ -1284,6 +1534,16 @@ pub struct Session {
     pub create_time: ::core::option::Option<crate::Timestamp>,
     #[prost(message, optional, tag = "7")]
     pub status: ::core::option::Option<SessionStatus>,
+}
+impl ::prost::Name for Session {
+    const NAME: &'static str = "Session";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.Session".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.Session".into()
+    }
 }
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct SessionStatus {
@@ -1337,6 +1597,16 @@ pub struct SessionStatus {
     #[prost(message, optional, tag = "19")]
     pub neutral_doubt: ::core::option::Option<NeutralDoubt>,
 }
+impl ::prost::Name for SessionStatus {
+    const NAME: &'static str = "SessionStatus";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.SessionStatus".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.SessionStatus".into()
+    }
+}
 /// The face that was taken as neutral probably was not.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct NeutralDoubt {
@@ -1352,6 +1622,16 @@ pub struct NeutralDoubt {
     #[prost(string, tag = "4")]
     pub advice: ::prost::alloc::string::String,
 }
+impl ::prost::Name for NeutralDoubt {
+    const NAME: &'static str = "NeutralDoubt";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.NeutralDoubt".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.NeutralDoubt".into()
+    }
+}
 /// The publisher's capture clock as the server sees it.
 #[derive(Clone, Copy, PartialEq, ::prost::Message)]
 pub struct ClockReport {
@@ -1365,6 +1645,16 @@ pub struct ClockReport {
     #[prost(double, tag = "4")]
     pub drift_ppm: f64,
 }
+impl ::prost::Name for ClockReport {
+    const NAME: &'static str = "ClockReport";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.ClockReport".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.ClockReport".into()
+    }
+}
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct StageLatency {
     /// "queued", "solved", "published", "sent", and "total" from frame received to sample published
@@ -1372,6 +1662,16 @@ pub struct StageLatency {
     pub stage: ::prost::alloc::string::String,
     #[prost(message, optional, tag = "2")]
     pub latency: ::core::option::Option<Latency>,
+}
+impl ::prost::Name for StageLatency {
+    const NAME: &'static str = "StageLatency";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.StageLatency".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.StageLatency".into()
+    }
 }
 #[derive(Clone, Copy, PartialEq, ::prost::Message)]
 pub struct AlignmentReport {
@@ -1384,6 +1684,16 @@ pub struct AlignmentReport {
     #[prost(uint32, tag = "4")]
     pub n_markers: u32,
 }
+impl ::prost::Name for AlignmentReport {
+    const NAME: &'static str = "AlignmentReport";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.AlignmentReport".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.AlignmentReport".into()
+    }
+}
 #[derive(Clone, Copy, PartialEq, ::prost::Message)]
 pub struct Latency {
     #[prost(double, tag = "1")]
@@ -1392,6 +1702,16 @@ pub struct Latency {
     pub p99_micros: f64,
     #[prost(double, tag = "3")]
     pub max_micros: f64,
+}
+impl ::prost::Name for Latency {
+    const NAME: &'static str = "Latency";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.Latency".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.Latency".into()
+    }
 }
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct SubscriberStatus {
@@ -1406,6 +1726,16 @@ pub struct SubscriberStatus {
     pub skipped_samples: u64,
     #[prost(uint64, tag = "5")]
     pub lag_frames: u64,
+}
+impl ::prost::Name for SubscriberStatus {
+    const NAME: &'static str = "SubscriberStatus";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.SubscriberStatus".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.SubscriberStatus".into()
+    }
 }
 /// What one control went through (Choe & Ko 2001, section 3): far beyond 0..1 says that its shape needs work.
 #[derive(Clone, PartialEq, ::prost::Message)]
@@ -1436,6 +1766,16 @@ pub struct ControlRange {
     #[prost(string, tag = "9")]
     pub sentence: ::prost::alloc::string::String,
 }
+impl ::prost::Name for ControlRange {
+    const NAME: &'static str = "ControlRange";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.ControlRange".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.ControlRange".into()
+    }
+}
 #[derive(Clone, Copy, PartialEq, ::prost::Message)]
 pub struct Percentiles {
     /// below it lies 1 % of the values
@@ -1444,6 +1784,16 @@ pub struct Percentiles {
     /// above it lies 1 % of the values
     #[prost(float, tag = "2")]
     pub p99: f32,
+}
+impl ::prost::Name for Percentiles {
+    const NAME: &'static str = "Percentiles";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.Percentiles".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.Percentiles".into()
+    }
 }
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct CreateSessionRequest {
@@ -1460,20 +1810,60 @@ pub struct CreateSessionRequest {
     #[prost(string, tag = "5")]
     pub display_name: ::prost::alloc::string::String,
 }
+impl ::prost::Name for CreateSessionRequest {
+    const NAME: &'static str = "CreateSessionRequest";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.CreateSessionRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.CreateSessionRequest".into()
+    }
+}
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct CreateSessionResponse {
     #[prost(message, optional, tag = "1")]
     pub session: ::core::option::Option<Session>,
+}
+impl ::prost::Name for CreateSessionResponse {
+    const NAME: &'static str = "CreateSessionResponse";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.CreateSessionResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.CreateSessionResponse".into()
+    }
 }
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct GetSessionRequest {
     #[prost(string, tag = "1")]
     pub name: ::prost::alloc::string::String,
 }
+impl ::prost::Name for GetSessionRequest {
+    const NAME: &'static str = "GetSessionRequest";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.GetSessionRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.GetSessionRequest".into()
+    }
+}
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct GetSessionResponse {
     #[prost(message, optional, tag = "1")]
     pub session: ::core::option::Option<Session>,
+}
+impl ::prost::Name for GetSessionResponse {
+    const NAME: &'static str = "GetSessionResponse";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.GetSessionResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.GetSessionResponse".into()
+    }
 }
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct ListSessionsRequest {
@@ -1482,12 +1872,32 @@ pub struct ListSessionsRequest {
     #[prost(string, tag = "2")]
     pub page_token: ::prost::alloc::string::String,
 }
+impl ::prost::Name for ListSessionsRequest {
+    const NAME: &'static str = "ListSessionsRequest";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.ListSessionsRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.ListSessionsRequest".into()
+    }
+}
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct ListSessionsResponse {
     #[prost(message, repeated, tag = "1")]
     pub sessions: ::prost::alloc::vec::Vec<Session>,
     #[prost(string, tag = "2")]
     pub next_page_token: ::prost::alloc::string::String,
+}
+impl ::prost::Name for ListSessionsResponse {
+    const NAME: &'static str = "ListSessionsResponse";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.ListSessionsResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.ListSessionsResponse".into()
+    }
 }
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct UpdateSessionRequest {
@@ -1502,10 +1912,30 @@ pub struct UpdateSessionRequest {
     #[prost(message, optional, tag = "4")]
     pub update_mask: ::core::option::Option<crate::FieldMask>,
 }
+impl ::prost::Name for UpdateSessionRequest {
+    const NAME: &'static str = "UpdateSessionRequest";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.UpdateSessionRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.UpdateSessionRequest".into()
+    }
+}
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct UpdateSessionResponse {
     #[prost(message, optional, tag = "1")]
     pub session: ::core::option::Option<Session>,
+}
+impl ::prost::Name for UpdateSessionResponse {
+    const NAME: &'static str = "UpdateSessionResponse";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.UpdateSessionResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.UpdateSessionResponse".into()
+    }
 }
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct RecenterSessionRequest {
@@ -1514,20 +1944,60 @@ pub struct RecenterSessionRequest {
     #[prost(enumeration = "NeutralSource", tag = "2")]
     pub source: i32,
 }
+impl ::prost::Name for RecenterSessionRequest {
+    const NAME: &'static str = "RecenterSessionRequest";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.RecenterSessionRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.RecenterSessionRequest".into()
+    }
+}
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct RecenterSessionResponse {
     #[prost(message, optional, tag = "1")]
     pub session: ::core::option::Option<Session>,
+}
+impl ::prost::Name for RecenterSessionResponse {
+    const NAME: &'static str = "RecenterSessionResponse";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.RecenterSessionResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.RecenterSessionResponse".into()
+    }
 }
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct EndSessionRequest {
     #[prost(string, tag = "1")]
     pub name: ::prost::alloc::string::String,
 }
+impl ::prost::Name for EndSessionRequest {
+    const NAME: &'static str = "EndSessionRequest";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.EndSessionRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.EndSessionRequest".into()
+    }
+}
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct EndSessionResponse {
     #[prost(message, optional, tag = "1")]
     pub session: ::core::option::Option<Session>,
+}
+impl ::prost::Name for EndSessionResponse {
+    const NAME: &'static str = "EndSessionResponse";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.EndSessionResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.EndSessionResponse".into()
+    }
 }
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
 #[repr(i32)]
@@ -2424,6 +2894,16 @@ pub struct PublishStart {
     #[prost(double, tag = "8")]
     pub rate_hz: f64,
 }
+impl ::prost::Name for PublishStart {
+    const NAME: &'static str = "PublishStart";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.PublishStart".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.PublishStart".into()
+    }
+}
 #[derive(Clone, Copy, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct ImageFormat {
     #[prost(enumeration = "ImageEncoding", tag = "1")]
@@ -2435,6 +2915,16 @@ pub struct ImageFormat {
     #[prost(uint32, tag = "3")]
     pub height: u32,
 }
+impl ::prost::Name for ImageFormat {
+    const NAME: &'static str = "ImageFormat";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.ImageFormat".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.ImageFormat".into()
+    }
+}
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct PublishMarkersRequest {
     /// first message only
@@ -2445,6 +2935,16 @@ pub struct PublishMarkersRequest {
     pub frames: ::prost::alloc::vec::Vec<MarkerFrame>,
     #[prost(message, optional, tag = "3")]
     pub clock: ::core::option::Option<ClockEcho>,
+}
+impl ::prost::Name for PublishMarkersRequest {
+    const NAME: &'static str = "PublishMarkersRequest";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.PublishMarkersRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.PublishMarkersRequest".into()
+    }
 }
 /// The client's half of a clock exchange: with it the server estimates offset and drift of the capture clock.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, ::prost::Message)]
@@ -2458,6 +2958,16 @@ pub struct ClockEcho {
     /// when this message left, capture clock
     #[prost(sfixed64, tag = "3")]
     pub client_send_nanos: i64,
+}
+impl ::prost::Name for ClockEcho {
+    const NAME: &'static str = "ClockEcho";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.ClockEcho".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.ClockEcho".into()
+    }
 }
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct MarkerFrame {
@@ -2482,6 +2992,16 @@ pub struct MarkerFrame {
     #[prost(fixed32, optional, tag = "6")]
     pub crc32c: ::core::option::Option<u32>,
 }
+impl ::prost::Name for MarkerFrame {
+    const NAME: &'static str = "MarkerFrame";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.MarkerFrame".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.MarkerFrame".into()
+    }
+}
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct PublishImagesRequest {
     #[prost(message, optional, tag = "1")]
@@ -2491,6 +3011,16 @@ pub struct PublishImagesRequest {
     pub frames: ::prost::alloc::vec::Vec<ImageFrame>,
     #[prost(message, optional, tag = "3")]
     pub clock: ::core::option::Option<ClockEcho>,
+}
+impl ::prost::Name for PublishImagesRequest {
+    const NAME: &'static str = "PublishImagesRequest";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.PublishImagesRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.PublishImagesRequest".into()
+    }
 }
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct ImageFrame {
@@ -2508,6 +3038,16 @@ pub struct ImageFrame {
     /// of `data`
     #[prost(fixed32, optional, tag = "6")]
     pub crc32c: ::core::option::Option<u32>,
+}
+impl ::prost::Name for ImageFrame {
+    const NAME: &'static str = "ImageFrame";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.ImageFrame".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.ImageFrame".into()
+    }
 }
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct PublishResponse {
@@ -2532,6 +3072,16 @@ pub struct PublishResponse {
     #[prost(bool, tag = "7")]
     pub recording: bool,
 }
+impl ::prost::Name for PublishResponse {
+    const NAME: &'static str = "PublishResponse";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.PublishResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.PublishResponse".into()
+    }
+}
 #[derive(Clone, Copy, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct PublishStarted {
     /// number of this grant; grows with every grant, across restarts too
@@ -2545,6 +3095,16 @@ pub struct PublishStarted {
     #[prost(uint64, tag = "4")]
     pub run: u64,
 }
+impl ::prost::Name for PublishStarted {
+    const NAME: &'static str = "PublishStarted";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.PublishStarted".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.PublishStarted".into()
+    }
+}
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct RejectedFrame {
     #[prost(uint64, tag = "1")]
@@ -2555,6 +3115,16 @@ pub struct RejectedFrame {
     /// "marker 12 (corner_left): x is infinite"
     #[prost(string, tag = "3")]
     pub detail: ::prost::alloc::string::String,
+}
+impl ::prost::Name for RejectedFrame {
+    const NAME: &'static str = "RejectedFrame";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.RejectedFrame".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.RejectedFrame".into()
+    }
 }
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
 #[repr(i32)]
@@ -3086,6 +3656,16 @@ pub struct ReadCurvesRequest {
     #[prost(bool, tag = "6")]
     pub with_markers: bool,
 }
+impl ::prost::Name for ReadCurvesRequest {
+    const NAME: &'static str = "ReadCurvesRequest";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.ReadCurvesRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.ReadCurvesRequest".into()
+    }
+}
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct ReadCurvesResponse {
     #[prost(message, optional, tag = "1")]
@@ -3103,6 +3683,16 @@ pub struct ReadCurvesResponse {
     #[prost(message, optional, tag = "6")]
     pub state: ::core::option::Option<StreamState>,
 }
+impl ::prost::Name for ReadCurvesResponse {
+    const NAME: &'static str = "ReadCurvesResponse";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.ReadCurvesResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.ReadCurvesResponse".into()
+    }
+}
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct SubscribeRequest {
     /// first message only
@@ -3111,6 +3701,16 @@ pub struct SubscribeRequest {
     /// later messages: this many more samples may be sent; 0 changes nothing
     #[prost(uint32, tag = "2")]
     pub credits: u32,
+}
+impl ::prost::Name for SubscribeRequest {
+    const NAME: &'static str = "SubscribeRequest";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.SubscribeRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.SubscribeRequest".into()
+    }
 }
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct SubscribeStart {
@@ -3131,7 +3731,7 @@ pub struct SubscribeStart {
     pub from_sequence: u64,
     #[prost(enumeration = "ControlSpace", tag = "6")]
     pub control_space: i32,
-    /// DELIVERY_LATEST; 0: every frame with credits, 30 without
+    /// DELIVERY_LATEST, 0 to 1,000,000; 0: every frame with credits, 30 without
     #[prost(float, tag = "7")]
     pub max_rate_hz: f32,
     /// fill CurveSample.standard_errors
@@ -3146,6 +3746,16 @@ pub struct SubscribeStart {
     /// fill observed_cm and reproduced_cm
     #[prost(bool, tag = "11")]
     pub with_markers: bool,
+}
+impl ::prost::Name for SubscribeStart {
+    const NAME: &'static str = "SubscribeStart";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.SubscribeStart".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.SubscribeStart".into()
+    }
 }
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct SubscribeResponse {
@@ -3168,6 +3778,16 @@ pub struct SubscribeResponse {
     #[prost(message, optional, tag = "6")]
     pub end: ::core::option::Option<CurveEnd>,
 }
+impl ::prost::Name for SubscribeResponse {
+    const NAME: &'static str = "SubscribeResponse";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.SubscribeResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.SubscribeResponse".into()
+    }
+}
 /// Frame numbers from first to last, both included, that gave no sample.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct Gap {
@@ -3178,12 +3798,32 @@ pub struct Gap {
     #[prost(enumeration = "GapCause", tag = "3")]
     pub cause: i32,
 }
+impl ::prost::Name for Gap {
+    const NAME: &'static str = "Gap";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.Gap".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.Gap".into()
+    }
+}
 #[derive(Clone, Copy, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct StreamState {
     #[prost(enumeration = "SessionState", tag = "1")]
     pub session_state: i32,
     #[prost(uint64, tag = "2")]
     pub last_frame_age_micros: u64,
+}
+impl ::prost::Name for StreamState {
+    const NAME: &'static str = "StreamState";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.StreamState".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.StreamState".into()
+    }
 }
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct CurveHeader {
@@ -3213,6 +3853,16 @@ pub struct CurveHeader {
     #[prost(sfixed64, tag = "9")]
     pub unix_offset_nanos: i64,
 }
+impl ::prost::Name for CurveHeader {
+    const NAME: &'static str = "CurveHeader";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.CurveHeader".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.CurveHeader".into()
+    }
+}
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct Control {
     /// "zygomatic_major_left", "AU12", "mouthSmileLeft"
@@ -3229,6 +3879,16 @@ pub struct Control {
     /// and 1, or 2 when exaggeration is allowed
     #[prost(float, tag = "5")]
     pub upper: f32,
+}
+impl ::prost::Name for Control {
+    const NAME: &'static str = "Control";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.Control".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.Control".into()
+    }
 }
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct CurveSample {
@@ -3292,6 +3952,16 @@ pub struct CurveSample {
     #[prost(uint32, repeated, tag = "21")]
     pub outlier_markers: ::prost::alloc::vec::Vec<u32>,
 }
+impl ::prost::Name for CurveSample {
+    const NAME: &'static str = "CurveSample";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.CurveSample".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.CurveSample".into()
+    }
+}
 /// Per-frame marker error (sum over markers of |observed - reproduced|) / n, Choe & Ko 2001, section 5.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct RegionError {
@@ -3311,6 +3981,16 @@ pub struct RegionError {
     #[prost(float, tag = "6")]
     pub quality_fraction: f32,
 }
+impl ::prost::Name for RegionError {
+    const NAME: &'static str = "RegionError";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.RegionError".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.RegionError".into()
+    }
+}
 /// State of one co-articulation region, Fidaleo & Neumann 2004.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct CoarticulationState {
@@ -3327,12 +4007,32 @@ pub struct CoarticulationState {
     #[prost(float, tag = "4")]
     pub distance: f32,
 }
+impl ::prost::Name for CoarticulationState {
+    const NAME: &'static str = "CoarticulationState";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.CoarticulationState".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.CoarticulationState".into()
+    }
+}
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct CurveEnd {
     #[prost(string, tag = "1")]
     pub reason: ::prost::alloc::string::String,
     #[prost(uint64, tag = "2")]
     pub last_frame: u64,
+}
+impl ::prost::Name for CurveEnd {
+    const NAME: &'static str = "CurveEnd";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.CurveEnd".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.CurveEnd".into()
+    }
 }
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
 #[repr(i32)]
@@ -4065,6 +4765,16 @@ pub struct Take {
     #[prost(bool, tag = "19")]
     pub with_images: bool,
 }
+impl ::prost::Name for Take {
+    const NAME: &'static str = "Take";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.Take".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.Take".into()
+    }
+}
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct StartTakeRequest {
     #[prost(string, tag = "1")]
@@ -4083,30 +4793,90 @@ pub struct StartTakeRequest {
     #[prost(message, optional, tag = "6")]
     pub pre_roll: ::core::option::Option<::pbjson_types::Duration>,
 }
+impl ::prost::Name for StartTakeRequest {
+    const NAME: &'static str = "StartTakeRequest";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.StartTakeRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.StartTakeRequest".into()
+    }
+}
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct StartTakeResponse {
     #[prost(message, optional, tag = "1")]
     pub take: ::core::option::Option<Take>,
+}
+impl ::prost::Name for StartTakeResponse {
+    const NAME: &'static str = "StartTakeResponse";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.StartTakeResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.StartTakeResponse".into()
+    }
 }
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct StopTakeRequest {
     #[prost(string, tag = "1")]
     pub name: ::prost::alloc::string::String,
 }
+impl ::prost::Name for StopTakeRequest {
+    const NAME: &'static str = "StopTakeRequest";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.StopTakeRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.StopTakeRequest".into()
+    }
+}
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct StopTakeResponse {
     #[prost(message, optional, tag = "1")]
     pub take: ::core::option::Option<Take>,
+}
+impl ::prost::Name for StopTakeResponse {
+    const NAME: &'static str = "StopTakeResponse";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.StopTakeResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.StopTakeResponse".into()
+    }
 }
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct GetTakeRequest {
     #[prost(string, tag = "1")]
     pub name: ::prost::alloc::string::String,
 }
+impl ::prost::Name for GetTakeRequest {
+    const NAME: &'static str = "GetTakeRequest";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.GetTakeRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.GetTakeRequest".into()
+    }
+}
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct GetTakeResponse {
     #[prost(message, optional, tag = "1")]
     pub take: ::core::option::Option<Take>,
+}
+impl ::prost::Name for GetTakeResponse {
+    const NAME: &'static str = "GetTakeResponse";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.GetTakeResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.GetTakeResponse".into()
+    }
 }
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct ListTakesRequest {
@@ -4122,6 +4892,16 @@ pub struct ListTakesRequest {
     #[prost(string, tag = "5")]
     pub slate: ::prost::alloc::string::String,
 }
+impl ::prost::Name for ListTakesRequest {
+    const NAME: &'static str = "ListTakesRequest";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.ListTakesRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.ListTakesRequest".into()
+    }
+}
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct UpdateTakeRequest {
     #[prost(message, optional, tag = "1")]
@@ -4129,10 +4909,30 @@ pub struct UpdateTakeRequest {
     #[prost(message, optional, tag = "2")]
     pub update_mask: ::core::option::Option<crate::FieldMask>,
 }
+impl ::prost::Name for UpdateTakeRequest {
+    const NAME: &'static str = "UpdateTakeRequest";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.UpdateTakeRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.UpdateTakeRequest".into()
+    }
+}
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct UpdateTakeResponse {
     #[prost(message, optional, tag = "1")]
     pub take: ::core::option::Option<Take>,
+}
+impl ::prost::Name for UpdateTakeResponse {
+    const NAME: &'static str = "UpdateTakeResponse";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.UpdateTakeResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.UpdateTakeResponse".into()
+    }
 }
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct ListTakesResponse {
@@ -4141,13 +4941,43 @@ pub struct ListTakesResponse {
     #[prost(string, tag = "2")]
     pub next_page_token: ::prost::alloc::string::String,
 }
+impl ::prost::Name for ListTakesResponse {
+    const NAME: &'static str = "ListTakesResponse";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.ListTakesResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.ListTakesResponse".into()
+    }
+}
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct DeleteTakeRequest {
     #[prost(string, tag = "1")]
     pub name: ::prost::alloc::string::String,
 }
+impl ::prost::Name for DeleteTakeRequest {
+    const NAME: &'static str = "DeleteTakeRequest";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.DeleteTakeRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.DeleteTakeRequest".into()
+    }
+}
 #[derive(Clone, Copy, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct DeleteTakeResponse {}
+impl ::prost::Name for DeleteTakeResponse {
+    const NAME: &'static str = "DeleteTakeResponse";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.DeleteTakeResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.DeleteTakeResponse".into()
+    }
+}
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct ExportTakeRequest {
     #[prost(string, tag = "1")]
@@ -4155,10 +4985,30 @@ pub struct ExportTakeRequest {
     #[prost(enumeration = "TakeFormat", tag = "2")]
     pub format: i32,
 }
+impl ::prost::Name for ExportTakeRequest {
+    const NAME: &'static str = "ExportTakeRequest";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.ExportTakeRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.ExportTakeRequest".into()
+    }
+}
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct ExportTakeResponse {
     #[prost(bytes = "vec", tag = "1")]
     pub chunk: ::prost::alloc::vec::Vec<u8>,
+}
+impl ::prost::Name for ExportTakeResponse {
+    const NAME: &'static str = "ExportTakeResponse";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.ExportTakeResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.ExportTakeResponse".into()
+    }
 }
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct ResolveTakeRequest {
@@ -4171,6 +5021,16 @@ pub struct ResolveTakeRequest {
     #[prost(message, optional, tag = "3")]
     pub settings: ::core::option::Option<SessionSettings>,
 }
+impl ::prost::Name for ResolveTakeRequest {
+    const NAME: &'static str = "ResolveTakeRequest";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.ResolveTakeRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.ResolveTakeRequest".into()
+    }
+}
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct ResolveTakeResponse {
     #[prost(uint64, tag = "1")]
@@ -4180,6 +5040,16 @@ pub struct ResolveTakeResponse {
     /// last response only
     #[prost(message, optional, tag = "3")]
     pub take: ::core::option::Option<Take>,
+}
+impl ::prost::Name for ResolveTakeResponse {
+    const NAME: &'static str = "ResolveTakeResponse";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.ResolveTakeResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.ResolveTakeResponse".into()
+    }
 }
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
 #[repr(i32)]
@@ -5138,6 +6008,16 @@ pub struct Server {
     #[prost(message, optional, tag = "7")]
     pub caller: ::core::option::Option<Principal>,
 }
+impl ::prost::Name for Server {
+    const NAME: &'static str = "Server";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.Server".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.Server".into()
+    }
+}
 /// Who calls, as the token or the certificate says.
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct Principal {
@@ -5153,18 +6033,49 @@ pub struct Principal {
     #[prost(message, optional, tag = "4")]
     pub expire_time: ::core::option::Option<crate::Timestamp>,
 }
+impl ::prost::Name for Principal {
+    const NAME: &'static str = "Principal";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.Principal".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.Principal".into()
+    }
+}
 #[derive(Clone, Copy, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct GetServerRequest {}
+impl ::prost::Name for GetServerRequest {
+    const NAME: &'static str = "GetServerRequest";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.GetServerRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.GetServerRequest".into()
+    }
+}
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct GetServerResponse {
     #[prost(message, optional, tag = "1")]
     pub server: ::core::option::Option<Server>,
 }
+impl ::prost::Name for GetServerResponse {
+    const NAME: &'static str = "GetServerResponse";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.GetServerResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.GetServerResponse".into()
+    }
+}
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
 #[repr(i32)]
 pub enum Role {
     Unspecified = 0,
-    /// everything
+    /// Everything with every session, actor and take, except that it publishes only with `PublishStart.takeover`: frames
+    /// that do not take a session over are refused with PERMISSION_DENIED / ROLE, and so are images.
     Operator = 1,
     /// its own sessions: create, publish, calibrate, subscribe, end
     Publisher = 2,

@@ -188,6 +188,9 @@ impl Pipeline {
             Ok(Ok(progress)) => {
                 let was_tried = matches!(progress, Progress::Aligned | Progress::RecenterFailed);
                 self.recenter_requested &= !was_tried;
+                if progress == Progress::ScaleJump {
+                    self.reject_newest(outcomes);
+                }
                 self.settle(progress, outcomes);
                 Step::Progress(progress)
             }
@@ -265,14 +268,24 @@ impl Pipeline {
         }
     }
 
+    /// The frame that was pushed last gives a gap; nothing before it is awaited any more.
+    fn reject_newest(&mut self, outcomes: &mut Vec<Outcome>) {
+        let newest = self.awaiting.pop_back();
+        self.give_up_awaiting(outcomes);
+        if let Some(Awaiting::Frame(note)) = newest {
+            outcomes.push(Outcome::Gap(Gap::of_frame(note.number, GapCause::Rejected)));
+        }
+    }
+
+    /// How many times the size of the face the last frame had, when it was not a face's.
+    pub(super) fn scale_jump(&self) -> Option<f64> {
+        self.source.as_ref()?.analyzer.scale_jump()
+    }
+
     /// After a panic: its frame gives a gap, the analyzer starts again from the alignment, if there is one.
     fn recover(&mut self, outcomes: &mut Vec<Outcome>) {
         self.solved.clear();
-        let broken = self.awaiting.pop_back();
-        self.give_up_awaiting(outcomes);
-        if let Some(Awaiting::Frame(note)) = broken {
-            outcomes.push(Outcome::Gap(Gap::of_frame(note.number, GapCause::Rejected)));
-        }
+        self.reject_newest(outcomes);
         if let Some(mut source) = self.source.take() {
             let alignment = source.analyzer.alignment().cloned();
             source.analyzer = self.analyzer(&source.shape, source.rate_hz, alignment);

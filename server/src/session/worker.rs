@@ -16,7 +16,7 @@ use super::{
     command::{Command, Source},
     figures::Passage,
     frame::Rejection,
-    intake::Closed,
+    intake::{Closed, MAX_CONSECUTIVE_REJECTS},
     judging::JudgingPace,
     mailbox::Mailbox,
     panic_count::PanicCount,
@@ -90,6 +90,8 @@ struct Worker {
     rate_hz: f64,
     last_received_nanos: i64,
     panics: PanicCount,
+    /// Frames at another scale, in a row.
+    n_scale_jumps: u32,
     judging: JudgingPace,
     outcomes: Vec<Outcome>,
     outgoing: Vec<Outgoing>,
@@ -114,6 +116,7 @@ impl Worker {
             rate_hz: 1.0,
             last_received_nanos: 0,
             panics: PanicCount::default(),
+            n_scale_jumps: 0,
             judging: JudgingPace::default(),
             outcomes: Vec::new(),
             outgoing: Vec::new(),
@@ -183,11 +186,15 @@ impl Worker {
         let step = self.pipeline.push(waiting, now_nanos, &mut self.outcomes);
         if let Step::Progress(progress) = &step {
             self.enter(state_after(*progress));
+            if *progress != Progress::ScaleJump {
+                self.n_scale_jumps = 0;
+            }
         }
         self.publish();
         match step {
             Step::Progress(Progress::Aligned) => self.aligned().await,
             Step::Progress(Progress::RecenterFailed) => self.not_recentered(),
+            Step::Progress(Progress::ScaleJump) => self.scale_jumped(number),
             Step::Progress(_) => {}
             Step::NotAligned(error) => self.not_aligned(error),
             Step::Panicked => return self.panicked(number).await,
@@ -263,6 +270,32 @@ impl Worker {
         let reason = self.pipeline.recenter_error().map(alignment_problem);
         tracing::info!(reason, "not recentered");
         self.shared.figures().alignment_problem = reason;
+    }
+
+    /// The capture's unit has changed: the frame is refused, and after many in a row the publication ends (CONTRACTS D-10).
+    fn scale_jumped(&mut self, number: u64) {
+        self.n_scale_jumps += 1;
+        let Some(mailbox) = &self.mailbox else {
+            return;
+        };
+        let times = self.pipeline.scale_jump().unwrap_or_default();
+        let mut intake = self.shared.intake();
+        let detail = format!(
+            "the face is {times:.3} times as large as the neutral one: has the unit changed?"
+        );
+        let reason = "SCALE_JUMP";
+        intake.reject_taken(
+            mailbox,
+            Rejection {
+                number,
+                reason,
+                detail,
+            },
+        );
+        if self.n_scale_jumps >= MAX_CONSECUTIVE_REJECTS {
+            let n_rejects = MAX_CONSECUTIVE_REJECTS;
+            intake.give_up(mailbox, PublishEnd::TooManyRejects { n_rejects });
+        }
     }
 
     fn not_aligned(&mut self, error: AlignmentError) {
@@ -386,7 +419,9 @@ fn state_after(progress: Progress) -> SessionState {
     match progress {
         Progress::Waiting => SessionState::Waiting,
         Progress::Collecting { .. } => SessionState::Aligning,
-        Progress::Aligned | Progress::Solved | Progress::RecenterFailed => SessionState::Live,
+        Progress::Aligned | Progress::Solved | Progress::ScaleJump | Progress::RecenterFailed => {
+            SessionState::Live
+        }
     }
 }
 
