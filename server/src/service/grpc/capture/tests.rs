@@ -810,7 +810,8 @@ async fn ending_finishes_the_queue_and_closes_both_sides() {
     assert!(recorder.states.iter().any(|it| it.0 == SessionState::Ended));
     let refused = stage.start(start("stage")).await.end().await;
     assert_refused(&refused, Code::FailedPrecondition, "SESSION_ENDED");
-    assert!(stage.session.recenter().await.is_err());
+    let next = NeutralSource::NextFrames;
+    assert!(stage.session.recenter(next).await.is_err());
     assert!(matches!(
         stage.events.recv().await,
         Some(SessionEvent::Ended { .. })
