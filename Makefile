@@ -137,6 +137,20 @@ bench: ## CPU time of the solve, the stage and the alignment, one thread
 bench-load: ## 64 sessions at 120 Hz with a subscriber each, 30 s: losses and latency
 	cargo run --release --package frontalis-tests --bin load
 
+.PHONY: accuracy
+accuracy: scipy ## Errors beside those of other methods where the truth is known: writes docs/accuracy.md and its pictures
+	cargo run --release --package frontalis-tests --bin accuracy
+
+.PHONY: scipy
+scipy:
+	@$(MAKE) --no-print-directory .venv-accuracy/ready \
+	  || echo "left out: scipy: python3 with venv and pip is needed to make .venv-accuracy"
+
+.venv-accuracy/ready: tests/accuracy/requirements.txt
+	@python3 -m venv .venv-accuracy
+	@.venv-accuracy/bin/pip install --quiet --disable-pip-version-check --requirement $<
+	@touch $@
+
 .PHONY: churn
 churn: ## Sessions made, used and ended for CHURN_SECONDS (ten minutes): memory, files and disk stay flat
 	FRONTALIS_CHURN_SECONDS=$(CHURN_SECONDS) cargo test --package frontalis-tests --test end_to_end -- --nocapture i8_

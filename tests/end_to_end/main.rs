@@ -3,6 +3,7 @@
 
 mod access;
 mod access_matrix;
+mod accuracy;
 mod api_page;
 mod audit;
 mod bad_input;
