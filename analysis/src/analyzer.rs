@@ -45,7 +45,8 @@ pub enum Progress {
     /// The face is at another scale than before, so the unit has changed: no sample will come of this frame.
     /// [`MarkerAnalyzer::scale_jump`] says by how much.
     ScaleJump,
-    /// One sample was appended; the new neutral face that was asked for could not be aligned, and the old one holds on.
+    /// The new neutral face that was asked for could not be aligned, and the old one holds on. One sample was appended, unless
+    /// the face is at another scale.
     /// [`MarkerAnalyzer::recenter_error`] says why.
     RecenterFailed,
 }
@@ -174,16 +175,21 @@ impl MarkerAnalyzer {
             }
             Stage::Solving(solving) => {
                 let sample = solving.solve(&frame);
-                if solving.solver.scale_jump().is_some() {
-                    return Ok(Progress::ScaleJump);
+                let is_at_scale = solving.solver.scale_jump().is_none();
+                if is_at_scale {
+                    samples.push(sample);
                 }
-                samples.push(sample);
-                Ok(match &mut solving.recentering {
+                // A new neutral face may be asked for just because the unit has changed.
+                let progress = match &mut solving.recentering {
                     None => Progress::Solved,
                     Some(frames) => {
                         frames.push(frame);
                         self.try_recenter()
                     }
+                };
+                Ok(match progress {
+                    Progress::Solved if !is_at_scale => Progress::ScaleJump,
+                    progress => progress,
                 })
             }
         }

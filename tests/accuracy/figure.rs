@@ -8,7 +8,11 @@ pub fn error(value: f64) -> String {
 /// Three decimals with the sign.
 pub fn signed(value: f64) -> String {
     let text = format!("{:.3}", value.abs());
-    let sign = if value < 0.0 && text != "0.000" { "−" } else { "+" };
+    let sign = if value < 0.0 && text != "0.000" {
+        "−"
+    } else {
+        "+"
+    };
     format!("{sign}{}", without_zero(&text))
 }
 
@@ -40,5 +44,6 @@ fn spread(values: &[f64]) -> f64 {
 }
 
 fn without_zero(text: &str) -> String {
-    text.strip_prefix("0.").map_or(text.to_owned(), |it| format!(".{it}"))
+    text.strip_prefix("0.")
+        .map_or(text.to_owned(), |it| format!(".{it}"))
 }

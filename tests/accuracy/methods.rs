@@ -105,7 +105,10 @@ impl Comparison {
     /// The constants in words.
     pub fn constants(&self) -> String {
         let Deployed { sparsity, temporal } = self.deployed;
-        format!("ridge {}, deployed μ = {sparsity}, λ = {temporal}", self.ridge.strength)
+        format!(
+            "ridge {}, deployed μ = {sparsity}, λ = {temporal}",
+            self.ridge.strength
+        )
     }
 
     /// Where a method's results stand.
@@ -115,7 +118,10 @@ impl Comparison {
 
     /// What a thread needs for [`Comparison::solve`].
     pub fn helper(methods: &[Method]) -> Option<Scipy> {
-        methods.contains(&Method::Scipy).then(Scipy::start).flatten()
+        methods
+            .contains(&Method::Scipy)
+            .then(Scipy::start)
+            .flatten()
     }
 
     /// The curves of every method, in the order of `methods`.

@@ -38,7 +38,9 @@ impl Drawing {
 
     /// Words that start at a place.
     fn text(&mut self, x: f64, y: f64, class: &str, words: &str) {
-        self.element(&format!("<text x=\"{x}\" y=\"{y}\" class=\"{class}\">{words}</text>"));
+        self.element(&format!(
+            "<text x=\"{x}\" y=\"{y}\" class=\"{class}\">{words}</text>"
+        ));
     }
 
     fn line(&mut self, [x1, y1]: [f64; 2], [x2, y2]: [f64; 2], class: &str) {
@@ -58,7 +60,11 @@ impl Drawing {
         const POINTS_A_LINE: usize = 12;
         let mut text = format!("<polyline class=\"{class}\" points=\"");
         for (index, [x, y]) in points.enumerate() {
-            let separator = if index % POINTS_A_LINE == 0 { '\n' } else { ' ' };
+            let separator = if index % POINTS_A_LINE == 0 {
+                '\n'
+            } else {
+                ' '
+            };
             // Writing to a string cannot fail.
             let _: std::fmt::Result = write!(text, "{separator}{x:.1},{y:.1}");
         }

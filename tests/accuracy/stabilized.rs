@@ -4,7 +4,10 @@ use frontalis_analysis::face::{
     actor::Actor, basis::MarkerBasis, marker::MarkerFrame, region::FaceRegion,
 };
 use frontalis_analysis::space::HeadPose;
-use harness::accuracy::{curves::Curves, take::{Solution, Take}};
+use harness::accuracy::{
+    curves::Curves,
+    take::{Solution, Take},
+};
 
 /// The linear problems of a take, one a frame, in centimeters of the actor.
 ///
@@ -24,20 +27,29 @@ impl Stabilized {
     /// The problems behind `plain`, the plain solution of `take`.
     pub fn of(take: &Take, actor: &Actor, plain: &Solution) -> Self {
         let bindings = &plain.alignment.bindings;
-        let bound: Vec<usize> = (0..bindings.len()).filter(|&j| bindings[j].is_some()).collect();
+        let bound: Vec<usize> = (0..bindings.len())
+            .filter(|&j| bindings[j].is_some())
+            .collect();
         let hand_marked = actor.virtual_markers().iter();
         let places: Vec<_> = (bindings.iter().zip(hand_marked))
             .map(|(bound, hand_marked)| bound.unwrap_or(*hand_marked))
             .collect();
         let basis = MarkerBasis::at(actor, &places);
-        let rows = bound.iter().flat_map(|&j| (0..3).map(move |axis| (j, axis)));
+        let rows = bound
+            .iter()
+            .flat_map(|&j| (0..3).map(move |axis| (j, axis)));
         let frames = take.frames.iter().zip(&plain.samples);
         Self {
             basis: (rows.clone())
                 .map(|(j, axis)| basis.of_marker_cm(j).iter().map(|it| it[axis]).collect())
                 .collect(),
             row_regions: rows.map(|(j, _)| actor.markers()[j].region).collect(),
-            muscle_regions: actor.muscle_set().muscles().iter().map(|it| it.region).collect(),
+            muscle_regions: actor
+                .muscle_set()
+                .muscles()
+                .iter()
+                .map(|it| it.region)
+                .collect(),
             displacements: frames
                 .map(|(frame, sample)| {
                     let undo = sample.head?.inverse();

@@ -46,21 +46,36 @@ fn check_synthetic(name: &str, condition: &Condition, settings: &MarkerSettings,
 #[test]
 fn plain_settings_keep_their_marks_on_synthetic_performances() {
     for (noise_mm, mark) in NOISE_MM.into_iter().zip(marks::PLAIN_RMS) {
-        check_synthetic("plain", &Condition::clean(noise_mm), &MarkerSettings::plain(), mark);
+        check_synthetic(
+            "plain",
+            &Condition::clean(noise_mm),
+            &MarkerSettings::plain(),
+            mark,
+        );
     }
 }
 
 #[test]
 fn default_settings_keep_their_marks_on_synthetic_performances() {
     for (noise_mm, mark) in NOISE_MM.into_iter().zip(marks::DEFAULT_RMS) {
-        check_synthetic("default", &Condition::clean(noise_mm), &MarkerSettings::default(), mark);
+        check_synthetic(
+            "default",
+            &Condition::clean(noise_mm),
+            &MarkerSettings::default(),
+            mark,
+        );
     }
 }
 
 #[test]
 fn hidden_and_jumping_markers_do_not_carry_the_default_away() {
     let condition = Condition::corrupted(0.5);
-    check_synthetic("default", &condition, &MarkerSettings::default(), marks::CORRUPTED_RMS);
+    check_synthetic(
+        "default",
+        &condition,
+        &MarkerSettings::default(),
+        marks::CORRUPTED_RMS,
+    );
 }
 
 /// A real take with its actor and mark.
@@ -76,7 +91,12 @@ impl Subject {
         let of_mark = |(real, mark): (RealTake, f64)| {
             let actor = scanned(data, real.package);
             let take = real.read(data, &actor);
-            Self { real, mark, actor, take }
+            Self {
+                real,
+                mark,
+                actor,
+                take,
+            }
         };
         marks::TAKES.map(of_mark).into()
     }
@@ -109,15 +129,22 @@ fn default_settings_keep_their_marks_on_real_takes() {
             errors.mean_absolute, subject.mark, errors.active, errors.small_bias,
         );
         assert!(errors.mean_absolute <= subject.mark, "{name}: {errors:?}");
-        assert!(errors.small_bias.abs() <= marks::SMALL_BIAS, "{name}: {errors:?}");
+        assert!(
+            errors.small_bias.abs() <= marks::SMALL_BIAS,
+            "{name}: {errors:?}"
+        );
         assert!(blink.abs() <= marks::BLINK_PEAK, "{name}: {blink}");
-        assert!(lags.n_late == 0 || !subject.has_16_muscles(), "{name}: {lags:?}");
+        assert!(
+            lags.n_late == 0 || !subject.has_16_muscles(),
+            "{name}: {lags:?}"
+        );
     }
 }
 
 #[test]
 fn a_corrupted_real_take_is_solved_almost_as_well_as_the_clean_one() {
-    let Some(data) = data_dir("accuracy::a_corrupted_real_take_is_solved_almost_as_well_as_the_clean_one")
+    let Some(data) =
+        data_dir("accuracy::a_corrupted_real_take_is_solved_almost_as_well_as_the_clean_one")
     else {
         return;
     };
@@ -160,7 +187,12 @@ fn check_wrong(cases: &[WrongCase]) {
     let mut largest = 0.0_f64;
     for case in cases {
         let errors = case.errors();
-        println!("{}, basis {}: ratio {:.3}, {errors:.4?}", case.name, case.seed, errors.ratio());
+        println!(
+            "{}, basis {}: ratio {:.3}, {errors:.4?}",
+            case.name,
+            case.seed,
+            errors.ratio()
+        );
         largest = largest.max(errors.ratio());
     }
     assert!(largest <= marks::WRONG_BASIS_RATIO, "{largest:.3}");
@@ -173,12 +205,18 @@ fn standard_errors_cover_as_often_as_they_claim() {
         let mut coverage = Coverage::default();
         for seed in FRESH_SEEDS {
             let take = Condition::clean(noise_mm).take(&actor, seed);
-            coverage.add(&take.solve(&actor, &without_sparsity()).samples, &take.truth);
+            coverage.add(
+                &take.solve(&actor, &without_sparsity()).samples,
+                &take.truth,
+            );
         }
         let shares = coverage.shares();
         println!("{noise_mm} mm: coverage {shares:.3?}, {coverage:?}");
         for (share, mark) in shares.iter().zip(marks::COVERAGE) {
-            assert!(mark.contains(share), "{noise_mm} mm: {share:.3} outside {mark:?}");
+            assert!(
+                mark.contains(share),
+                "{noise_mm} mm: {share:.3} outside {mark:?}"
+            );
         }
     }
 }

@@ -15,8 +15,9 @@ pub fn solve(problem: &Stabilized) -> Curves {
 }
 
 fn solve_region(problem: &Stabilized, region: FaceRegion, d: &[f64], x: &mut [f64]) {
-    let muscles: Vec<usize> =
-        (0..problem.n_muscles()).filter(|&it| problem.muscle_regions[it] == region).collect();
+    let muscles: Vec<usize> = (0..problem.n_muscles())
+        .filter(|&it| problem.muscle_regions[it] == region)
+        .collect();
     let own = |row: usize| problem.row_regions[row] == region;
     let mut part: Vec<f64> = muscles.iter().map(|&it| x[it]).collect();
     Quadratic::of(problem, d, own, &muscles).minimize(0.0, 1.0, &mut part);

@@ -28,7 +28,11 @@ impl Quadratic {
             q: vec![0.0; m * m],
             c: vec![0.0; m],
         };
-        for (row, d) in d.iter().enumerate().filter(|(row, d)| !d.is_nan() && is_row(*row)) {
+        for (row, d) in d
+            .iter()
+            .enumerate()
+            .filter(|(row, d)| !d.is_nan() && is_row(*row))
+        {
             let basis = &problem.basis[row];
             for (i, &muscle) in muscles.iter().enumerate() {
                 it.c[i] += basis[muscle] * d;

@@ -35,7 +35,11 @@ impl Scipy {
         let mut output = child.stdout.take()?;
         let mut ready = [0; 1];
         let started = output.read_exact(&mut ready).is_ok();
-        let mut scipy = Self { child, input, output };
+        let mut scipy = Self {
+            child,
+            input,
+            output,
+        };
         if !started {
             scipy.end();
             return None;
@@ -48,7 +52,10 @@ impl Scipy {
         let (n_rows, n_frames) = (problem.basis.len(), problem.displacements.len());
         let m = problem.n_muscles();
         let unseen = vec![f64::NAN; n_rows];
-        let frames = problem.displacements.iter().map(|it| it.as_ref().unwrap_or(&unseen));
+        let frames = problem
+            .displacements
+            .iter()
+            .map(|it| it.as_ref().unwrap_or(&unseen));
         let values = problem.basis.iter().chain(frames).flatten();
         let sizes = [n_rows, m, n_frames].map(|it| (it as u64).to_le_bytes());
         let mut job: Vec<u8> = sizes.as_flattened().to_vec();

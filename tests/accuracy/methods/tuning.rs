@@ -13,7 +13,9 @@ const TEMPORALS: [f64; 4] = [1e-6, 1e-5, 1e-4, 1e-3];
 /// The best ridge and the best deployed solver by the mean absolute error on `problems`, each with its truth.
 pub fn best(problems: &[(Stabilized, Curves)]) -> (Ridge, Deployed) {
     let error = |solve: &dyn Fn(&Stabilized) -> Curves| -> f64 {
-        let errors = problems.iter().map(|(problem, truth)| Errors::of(&solve(problem), truth));
+        let errors = problems
+            .iter()
+            .map(|(problem, truth)| Errors::of(&solve(problem), truth));
         errors.map(|it| it.mean_absolute).sum()
     };
     let ridges = RIDGES.map(|strength| Ridge { strength });

@@ -26,7 +26,12 @@ impl Chart<'_> {
         let height = TOP + self.muscles.len() as f64 * ROW_HEIGHT + 10.0;
         let title = format!("{}: mean |error| of plain (above) and default", self.title);
         let mut drawing = Drawing::new(WIDTH, height, &title);
-        let largest = self.plain.iter().chain(self.default).copied().fold(1e-6, f64::max);
+        let largest = self
+            .plain
+            .iter()
+            .chain(self.default)
+            .copied()
+            .fold(1e-6, f64::max);
         let scale = (WIDTH - LEFT - RIGHT) / largest;
         for (row, muscle) in self.muscles.iter().enumerate() {
             let top = TOP + row as f64 * ROW_HEIGHT;
@@ -36,7 +41,12 @@ impl Chart<'_> {
                 let y = top + index as f64 * (BAR_HEIGHT + 1.0);
                 let width = scale * values[row];
                 drawing.bar([LEFT, y], width, BAR_HEIGHT, class);
-                drawing.text(LEFT + width + 5.0, y + BAR_HEIGHT, "name", &error(values[row]));
+                drawing.text(
+                    LEFT + width + 5.0,
+                    y + BAR_HEIGHT,
+                    "name",
+                    &error(values[row]),
+                );
             }
         }
         drawing.finish()

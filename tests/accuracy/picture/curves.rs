@@ -44,12 +44,15 @@ impl Chart<'_> {
 
     fn n_frames(&self) -> usize {
         let limit = SECONDS * self.rate_hz;
-        (0..self.truth.n_frames()).take_while(|&it| (it as f64) < limit).count()
+        (0..self.truth.n_frames())
+            .take_while(|&it| (it as f64) < limit)
+            .count()
     }
 
     /// The muscles whose truth varies most in what is shown, in their own order.
     fn liveliest(&self) -> Vec<usize> {
-        let varies = |&muscle: &usize| standard_deviation(&self.truth.of_muscle(muscle)[..self.n_frames()]);
+        let varies =
+            |&muscle: &usize| standard_deviation(&self.truth.of_muscle(muscle)[..self.n_frames()]);
         let mut muscles: Vec<usize> = (0..self.truth.n_muscles()).collect();
         muscles.sort_by(|a, b| varies(b).total_cmp(&varies(a)));
         muscles.truncate(N_MUSCLES);
@@ -59,12 +62,21 @@ impl Chart<'_> {
 
     fn draw(&self, drawing: &mut Drawing, muscle: usize, base: f64) {
         let right = WIDTH - LEFT;
-        drawing.text(LEFT, base - CURVE_HEIGHT - 4.0, "name", &self.muscles[muscle].name);
+        drawing.text(
+            LEFT,
+            base - CURVE_HEIGHT - 4.0,
+            "name",
+            &self.muscles[muscle].name,
+        );
         for height in [0.0, CURVE_HEIGHT] {
             drawing.line([LEFT, base - height], [right, base - height], "axis");
         }
         let step = (right - LEFT) / self.n_frames().max(2).saturating_sub(1) as f64;
-        let curves = [(self.truth, "truth"), (self.plain, "plain"), (self.default, "default")];
+        let curves = [
+            (self.truth, "truth"),
+            (self.plain, "plain"),
+            (self.default, "default"),
+        ];
         for (curves, class) in curves {
             let curve = curves.of_muscle(muscle);
             let frames = curve[..self.n_frames()].iter().enumerate().step_by(STRIDE);

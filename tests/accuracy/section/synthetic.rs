@@ -42,7 +42,8 @@ pub fn write(report: &mut Report, methods: &[Method]) {
 }
 
 fn introduction(comparison: &Comparison) -> String {
-    let [plain, default] = [marks::PLAIN_RMS, marks::DEFAULT_RMS].map(|it| it.map(crate::figure::error).join(", "));
+    let [plain, default] =
+        [marks::PLAIN_RMS, marks::DEFAULT_RMS].map(|it| it.map(crate::figure::error).join(", "));
     format!(
         "\
 ## Synthetic performances
@@ -106,7 +107,9 @@ fn errors(
     by_condition
         .map(|seeds| {
             let methods = 0..comparison.methods.len();
-            methods.map(|method| seeds.iter().map(|it| it[method]).collect()).collect()
+            methods
+                .map(|method| seeds.iter().map(|it| it[method]).collect())
+                .collect()
         })
         .collect()
 }
@@ -119,8 +122,16 @@ fn table(
 ) -> Table {
     let methods = &comparison.methods;
     let titles = methods.iter().map(|it| it.title());
-    let mut table = Table::new(["noise, mm", "hidden", "jumped"].into_iter().chain(titles).chain(["study"]));
-    let rows = conditions.iter().zip(errors).filter(|(it, _)| it.moving_head == moving_head);
+    let mut table = Table::new(
+        ["noise, mm", "hidden", "jumped"]
+            .into_iter()
+            .chain(titles)
+            .chain(["study"]),
+    );
+    let rows = conditions
+        .iter()
+        .zip(errors)
+        .filter(|(it, _)| it.moving_head == moving_head);
     for (condition, errors) in rows {
         print_summary(condition, methods, errors);
         let percent = |share: f64| format!("{} %", 100.0 * share);
@@ -142,18 +153,25 @@ fn table(
 )]
 fn study(condition: &Condition) -> &'static str {
     let corruption = condition.corruption;
-    let found = STUDY.iter().find(|(moving_head, noise, occluded, outliers, _)| {
-        *moving_head == condition.moving_head
-            && *noise == condition.noise_mm
-            && *occluded == corruption.occluded
-            && *outliers == corruption.outliers
-    });
+    let found = STUDY
+        .iter()
+        .find(|(moving_head, noise, occluded, outliers, _)| {
+            *moving_head == condition.moving_head
+                && *noise == condition.noise_mm
+                && *occluded == corruption.occluded
+                && *outliers == corruption.outliers
+        });
     found.map_or("—", |it| it.4)
 }
 
 fn print_summary(condition: &Condition, methods: &[Method], errors: &[Vec<f64>]) {
-    let ours = methods.iter().zip(errors).filter(|(it, _)| matches!(it, Method::Plain | Method::Default));
-    let figures: Vec<String> = ours.map(|(it, errors)| format!("{} {:.4}", it.title(), mean(errors))).collect();
+    let ours = methods
+        .iter()
+        .zip(errors)
+        .filter(|(it, _)| matches!(it, Method::Plain | Method::Default));
+    let figures: Vec<String> = ours
+        .map(|(it, errors)| format!("{} {:.4}", it.title(), mean(errors)))
+        .collect();
     println!("{condition}: RMS {}", figures.join(", "));
 }
 
@@ -191,12 +209,20 @@ fn draw(report: &mut Report, actor: &Arc<Actor>) {
         plain,
         default,
     };
-    report.add_picture("synthetic_curves", "Curves against truth, synthetic performance", &chart.svg());
+    report.add_picture(
+        "synthetic_curves",
+        "Curves against truth, synthetic performance",
+        &chart.svg(),
+    );
     let chart = bars::Chart {
         title: &title,
         muscles: actor.muscle_set().muscles(),
         plain: &by_muscle(plain, &take.truth),
         default: &by_muscle(default, &take.truth),
     };
-    report.add_picture("synthetic_muscles", "Error by muscle, synthetic performance", &chart.svg());
+    report.add_picture(
+        "synthetic_muscles",
+        "Error by muscle, synthetic performance",
+        &chart.svg(),
+    );
 }

@@ -38,7 +38,10 @@ pub fn write(report: &mut Report, methods: &[Method]) {
         return report.leave_out("takes of real performances: FRONTALIS_DATA is not there");
     };
     let of_package = |package| Subject::of_package(&data, package, methods);
-    let subjects: Vec<Subject> = RealTake::PACKAGES.into_iter().flat_map(of_package).collect();
+    let subjects: Vec<Subject> = RealTake::PACKAGES
+        .into_iter()
+        .flat_map(of_package)
+        .collect();
     let outcomes = outcomes(&subjects, methods);
     report.add(&summary(&subjects, &outcomes, methods).to_string());
     for (subject, outcome) in subjects.iter().zip(&outcomes) {
@@ -102,7 +105,11 @@ impl Version {
     fn all() -> Vec<Self> {
         let after = CORRUPTION_SEEDS.map(Self::AfterNeutral);
         let everywhere = CORRUPTION_SEEDS.map(Self::Everywhere);
-        [Self::Clean].into_iter().chain(after).chain(everywhere).collect()
+        [Self::Clean]
+            .into_iter()
+            .chain(after)
+            .chain(everywhere)
+            .collect()
     }
 
     fn of(self, take: &Take) -> Take {
@@ -136,13 +143,16 @@ fn outcomes(subjects: &[Subject], methods: &[Method]) -> Vec<Outcome> {
         },
     );
     let by_subject = curves.chunks_exact(versions.len()).zip(subjects);
-    by_subject.map(|(curves, subject)| Outcome::of(curves, subject)).collect()
+    by_subject
+        .map(|(curves, subject)| Outcome::of(curves, subject))
+        .collect()
 }
 
 impl Outcome {
     fn of(curves: &[Vec<Curves>], subject: &Subject) -> Self {
         let error = |it: &Curves| Errors::of(it, &subject.take.truth).mean_absolute;
-        let errors = |it: &[Vec<Curves>]| it.iter().map(|it| it.iter().map(error).collect()).collect();
+        let errors =
+            |it: &[Vec<Curves>]| it.iter().map(|it| it.iter().map(error).collect()).collect();
         let (after_neutral, everywhere) = curves[1..].split_at(CORRUPTION_SEEDS.len());
         Self {
             clean: curves[0].clone(),
@@ -159,9 +169,17 @@ fn of_method(errors: &[Vec<f64>], method: usize) -> f64 {
 
 fn summary(subjects: &[Subject], outcomes: &[Outcome], methods: &[Method]) -> Table {
     let titles = methods.iter().map(|it| it.title());
-    let mut table = Table::new(["take, mean \\|error\\|"].into_iter().chain(titles).chain(["mark"]));
+    let mut table = Table::new(
+        ["take, mean \\|error\\|"]
+            .into_iter()
+            .chain(titles)
+            .chain(["mark"]),
+    );
     for (subject, outcome) in subjects.iter().zip(outcomes) {
-        let errors = outcome.clean.iter().map(|it| Errors::of(it, &subject.take.truth));
+        let errors = outcome
+            .clean
+            .iter()
+            .map(|it| Errors::of(it, &subject.take.truth));
         let mut row = vec![subject.real.name()];
         row.extend(errors.map(|it| error(it.mean_absolute)));
         let mark = marks::TAKES.iter().find(|(it, _)| *it == subject.real);
@@ -214,7 +232,13 @@ fn row(subject: &Subject, outcome: &Outcome, method: usize) -> Vec<String> {
 fn draw(report: &mut Report, subjects: &[Subject], outcomes: &[Outcome]) {
     let [plain, default] =
         [Method::Plain, Method::Default].map(|it| subjects[0].comparison.place(it));
-    let of = |real| subjects.iter().zip(outcomes).find(|(it, _)| it.real == real).unwrap();
+    let of = |real| {
+        subjects
+            .iter()
+            .zip(outcomes)
+            .find(|(it, _)| it.real == real)
+            .unwrap()
+    };
     let (subject, outcome) = of(CURVES_OF);
     let chart = curves::Chart {
         title: &subject.real.name(),
@@ -224,7 +248,11 @@ fn draw(report: &mut Report, subjects: &[Subject], outcomes: &[Outcome]) {
         plain: &outcome.clean[plain],
         default: &outcome.clean[default],
     };
-    report.add_picture("take_curves", "Curves against truth, real performance", &chart.svg());
+    report.add_picture(
+        "take_curves",
+        "Curves against truth, real performance",
+        &chart.svg(),
+    );
     let (subject, outcome) = of(MUSCLES_OF);
     let chart = bars::Chart {
         title: &subject.real.name(),
@@ -232,5 +260,9 @@ fn draw(report: &mut Report, subjects: &[Subject], outcomes: &[Outcome]) {
         plain: &by_muscle(&outcome.clean[plain], &subject.take.truth),
         default: &by_muscle(&outcome.clean[default], &subject.take.truth),
     };
-    report.add_picture("take_muscles", "Error by muscle, real performance", &chart.svg());
+    report.add_picture(
+        "take_muscles",
+        "Error by muscle, real performance",
+        &chart.svg(),
+    );
 }

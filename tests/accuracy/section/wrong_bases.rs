@@ -53,7 +53,9 @@ The two columns before have the mean errors over the bases, the last column has 
 
 fn table(cases: &[WrongCase], errors: &[WrongErrors]) -> Table {
     let bases = (1..=WRONG_SEEDS.len()).map(|it| it.to_string());
-    let titles = ["performance", "robust", "default"].map(str::to_owned).into_iter();
+    let titles = ["performance", "robust", "default"]
+        .map(str::to_owned)
+        .into_iter();
     let last = ["largest", "by the other measure"].map(str::to_owned);
     let mut table = Table::new(titles.chain(bases).chain(last));
     let rows = cases.chunk_by(|a, b| a.name == b.name);

@@ -1,13 +1,8 @@
 //! The measures measure what they say.
 
 use harness::accuracy::{
-    blink::largest_peak_error,
-    condition::Condition,
-    corruption::Corruption,
-    curves::Curves,
-    errors::Errors,
-    lag::Lags,
-    take::N_NEUTRAL,
+    blink::largest_peak_error, condition::Condition, corruption::Corruption, curves::Curves,
+    errors::Errors, lag::Lags, take::N_NEUTRAL,
 };
 
 /// One muscle's curve.
@@ -22,7 +17,10 @@ fn a_curve_that_comes_later_is_late_by_as_many_frames() {
     for delay in [-7, -2, 0, 1, 2, 5] {
         let lags = Lags::of(&single((0..300).map(|k| wave(k - delay))), &truth);
         assert_eq!(lags.largest, delay as isize);
-        assert_eq!((lags.n_curves, lags.n_late), (1, usize::from(delay.abs() > 1)));
+        assert_eq!(
+            (lags.n_curves, lags.n_late),
+            (1, usize::from(delay.abs() > 1))
+        );
     }
 }
 

@@ -52,15 +52,15 @@ fn refused_options() -> Vec<(Value, &'static str)> {
         "exclusivePairs": [pair("jaw_rotation", "lips_pressor")],
     });
     let mut all = vec![
-        (json!({ "neutralFrames": 0 }), "neutral_frames"),
-        (json!({ "neutralFrames": 1_000_000_000 }), "neutral_frames"),
-        (json!({ "staleAfter": "0s" }), "stale_after"),
-        (json!({ "publisherTimeout": "-1s" }), "publisher_timeout"),
-        (never_relaxed, "exclusive_pairs"),
+        (json!({ "neutralFrames": 0 }), "neutralFrames"),
+        (json!({ "neutralFrames": 1_000_000_000 }), "neutralFrames"),
+        (json!({ "staleAfter": "0s" }), "staleAfter"),
+        (json!({ "publisherTimeout": "-1s" }), "publisherTimeout"),
+        (never_relaxed, "exclusivePairs"),
     ];
     all.extend(strengths);
     all.extend(bounds.map(|it| (json!({ "bounds": it }), "bounds")));
-    all.extend(pairs.map(|it| (json!({ "exclusivePairs": it }), "exclusive_pairs")));
+    all.extend(pairs.map(|it| (json!({ "exclusivePairs": it }), "exclusivePairs")));
     all.extend(plain.map(|it| (it, "plain")));
     all
 }
@@ -78,7 +78,7 @@ async fn d13_options_that_cannot_be_are_refused_by_name_and_change_nothing() {
                 (
                     400,
                     &json!("urn:frontalis:problem:SOLVER_OPTIONS"),
-                    &json!(field)
+                    &json!(format!("settings.{field}"))
                 ),
                 "{options}: {problem}"
             );

@@ -80,7 +80,9 @@ impl WrongCase {
         let of_package = |package| {
             let right = actors::scanned(data, package);
             let wrong = WRONG_SEEDS.map(|seed| (seed, wrong_actor(&right, seed)));
-            let takes = RealTake::ALL.into_iter().filter(move |it| it.package == package);
+            let takes = RealTake::ALL
+                .into_iter()
+                .filter(move |it| it.package == package);
             takes.flat_map(move |real| {
                 let take = Arc::new(real.read(data, &right));
                 wrong.clone().map(|(seed, wrong)| Self {
@@ -92,7 +94,10 @@ impl WrongCase {
                 })
             })
         };
-        RealTake::PACKAGES.into_iter().flat_map(of_package).collect()
+        RealTake::PACKAGES
+            .into_iter()
+            .flat_map(of_package)
+            .collect()
     }
 
     /// The errors of both settings.

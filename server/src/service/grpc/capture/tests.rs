@@ -605,8 +605,11 @@ async fn a_neutral_face_that_cannot_replace_the_old_one_is_said_and_the_stream_g
     assert!(status.alignment.is_some());
     publisher.publish(stage.frames(15..=20)).await;
     let seen = recorder.see_through(20).await;
-    assert_eq!(seen, (15..=20).map(|it| sample(it, it)).collect::<Vec<_>>());
-    assert!(publisher.rejected.is_empty());
+    // Frames at another scale give no samples, but a new neutral face is looked for in them.
+    let samples = (15..=20).map(|it| sample(it, it - 4));
+    assert_eq!(seen, samples.collect::<Vec<_>>());
+    let rejected = (11..=13).map(|it| (it, "SCALE_JUMP".to_owned()));
+    assert_eq!(publisher.rejected, rejected.collect::<Vec<_>>());
 
     // Another request is another attempt.
     stage

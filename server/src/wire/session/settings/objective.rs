@@ -117,7 +117,8 @@ pub(super) fn pairs_to_wire(objective: &Objective) -> Vec<v1::ControlPair> {
 pub fn check_objective(settings: &SessionSettings, muscles: &MuscleSet) -> Result<(), FieldError> {
     let objective = &settings.marker.objective;
     let refused = |error: ObjectiveError| {
-        FieldError::unusable(field(&error), REASON, detail(&error, objective))
+        let detail = detail(&error, objective);
+        FieldError::unusable(field(&error), REASON, detail).inside("settings")
     };
     objective.check(muscles).map_err(refused)
 }
