@@ -3,8 +3,6 @@
 pub mod bars;
 pub mod curves;
 
-use std::fmt::Write as _;
-
 /// What an SVG is drawn with; both a light and a dark page can be behind it, so it brings its own ground.
 const STYLE: &str = "\
 <style>
@@ -58,17 +56,18 @@ impl Drawing {
     /// A polyline, a dozen points a line of text.
     fn path(&mut self, points: impl Iterator<Item = [f64; 2]>, class: &str) {
         const POINTS_A_LINE: usize = 12;
-        let mut text = format!("<polyline class=\"{class}\" points=\"");
-        for (index, [x, y]) in points.enumerate() {
+        let point = |(index, [x, y]): (usize, [f64; 2])| {
             let separator = if index % POINTS_A_LINE == 0 {
                 '\n'
             } else {
                 ' '
             };
-            // Writing to a string cannot fail.
-            let _: std::fmt::Result = write!(text, "{separator}{x:.1},{y:.1}");
-        }
-        self.element(&format!("{text}\"/>"));
+            format!("{separator}{x:.1},{y:.1}")
+        };
+        let points: String = points.enumerate().map(point).collect();
+        self.element(&format!(
+            "<polyline class=\"{class}\" points=\"{points}\"/>"
+        ));
     }
 
     fn element(&mut self, element: &str) {

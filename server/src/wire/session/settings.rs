@@ -100,7 +100,7 @@ fn changed(
         &mut marker.align_on_request,
         default_marker.align_on_request,
     );
-    marker.objective = objective::apply(&change, asked, &marker.objective)?;
+    marker.objective = objective::apply(change, asked, &marker.objective)?;
     let stale_after = asked
         .stale_after
         .map(|it| duration("stale_after", it))

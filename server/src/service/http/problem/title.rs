@@ -205,6 +205,6 @@ mod tests {
         let end = call.find([';', '}']).unwrap_or(call.len());
         let mut literals = call[..end].split('"').skip(1).step_by(2).take(2);
         let is_upper = |it: &u8| it.is_ascii_uppercase() || it.is_ascii_digit() || *it == b'_';
-        literals.find(|it| it.len() > 2 && it.as_bytes().iter().all(|byte| is_upper(byte)))
+        literals.find(|it| it.len() > 2 && it.as_bytes().iter().all(&is_upper))
     }
 }

@@ -5,6 +5,10 @@ use frontalis_analysis::{marker_analysis::objective::Objective, synthesis::refer
 use super::*;
 
 /// The field and the reason with which the reference face's session refuses.
+#[expect(
+    clippy::needless_pass_by_value,
+    reason = "each case is written as a value"
+)]
 fn refused(asked: v1::SessionSettings) -> (&'static str, &'static str) {
     let error = refusal(&asked, &SessionSettings::default());
     (error.field(), error.reason())
@@ -173,7 +177,10 @@ fn a_refusal_says_the_number_that_was_sent_and_not_the_name() {
     };
     let said =
         |asked: &v1::SessionSettings| refusal(asked, &SessionSettings::default()).to_string();
-    assert_eq!(said(&strength), "smoothing: 1.1 is not within 0..=1");
+    assert_eq!(
+        said(&strength),
+        "settings.smoothing: 1.1 is not within 0..=1"
+    );
     let bounds = v1::SessionSettings {
         bounds: vec![own_bounds("jaw_rotation", 0.6, 0.5)],
         ..off()
