@@ -22,6 +22,7 @@ mod positions;
 mod protocol_order;
 mod protocols;
 mod resources;
+mod solver_options;
 mod tls;
 mod websocket;
 

@@ -3,6 +3,7 @@
 
 mod access;
 mod access_matrix;
+mod accuracy;
 mod api_page;
 mod audit;
 mod bad_input;
@@ -20,4 +21,5 @@ mod layering;
 mod load;
 mod openapi;
 mod real_takes;
+mod recentering;
 mod restart;

@@ -8,6 +8,7 @@
     reason = "a test that fails here is its own report"
 )]
 
+pub mod accuracy;
 mod client_files;
 mod control_session;
 mod cost;

@@ -1406,7 +1406,13 @@ pub mod actor_service_server {
     }
 }
 /// Absent fields take the default that is written beside them; `Session.settings` returns the effective values.
-#[derive(Clone, Copy, PartialEq, ::prost::Message)]
+///
+/// `smoothing`, `sparsity`, `robust` and `symmetry` are terms beside the paper's least squares. A larger strength trusts
+/// the term more and the markers of the frame less: `smoothing` costs lag, `sparsity` and `symmetry` cost bias; what each
+/// costs at which strength stands in docs/methods.md, section 5b. `plain` switches them all off.
+/// What is outside its range, names a control that the actor does not have, or contradicts `plain` is INVALID_ARGUMENT /
+/// SOLVER_OPTIONS, and nothing changes.
+#[derive(Clone, PartialEq, ::prost::Message)]
 pub struct SessionSettings {
     /// frames registered rigidly and averaged for the alignment, 1..256; 15 (the paper: 1)
     #[prost(uint32, optional, tag = "1")]
@@ -1414,13 +1420,13 @@ pub struct SessionSettings {
     /// 0 \<= x \<= 2 instead of 0 \<= x \<= 1; false
     #[prost(bool, optional, tag = "2")]
     pub allow_exaggeration: ::core::option::Option<bool>,
-    /// 0 off .. 1; temporal prior of the solver, frame-rate independent; absent: the default solver's own
+    /// 0 off .. 1; temporal prior, the same at every frame rate: holds are smoothed, jumps pass, more lags more; 0.5
     #[prost(float, optional, tag = "3")]
     pub smoothing: ::core::option::Option<f32>,
-    /// 0 off .. 1; L1 weight relative to the noise; absent: the default solver's own
+    /// 0 off .. 1; L1 weight relative to the noise: relaxed muscles rest at 0, more keeps weak contractions there too; 0.5
     #[prost(float, optional, tag = "4")]
     pub sparsity: ::core::option::Option<f32>,
-    /// down-weight outlying markers; true
+    /// weigh outlying markers down, mask those that jump, undo swapped labels; true
     #[prost(bool, optional, tag = "5")]
     pub robust: ::core::option::Option<bool>,
     /// solve for head motion in every frame; true
@@ -1437,7 +1443,9 @@ pub struct SessionSettings {
     pub record: ::core::option::Option<bool>,
     #[prost(enumeration = "RegionMode", tag = "10")]
     pub region_mode: i32,
-    /// every added term off: the paper's objective; false
+    /// true: every term off, the paper's objective; a term that is asked for above 0 or true in the same request contradicts
+    /// it. false: terms that `plain` had switched off go back to their defaults, before the rest of the request counts.
+    /// Returned: whether no term is on. Bounds and pairs are no terms and stay. false
     #[prost(bool, optional, tag = "11")]
     pub plain: ::core::option::Option<bool>,
     /// align only when Recenter is called, not on the first frames; false
@@ -1446,6 +1454,17 @@ pub struct SessionSettings {
     /// the take that `record` starts keeps raw images; false
     #[prost(bool, optional, tag = "13")]
     pub record_images: ::core::option::Option<bool>,
+    /// 0 off .. 1; draws a muscle and its mirror image together, more hides what is one-sided; 0
+    #[prost(float, optional, tag = "14")]
+    pub symmetry: ::core::option::Option<f32>,
+    /// Controls with bounds of their own, each at most once, in place of 0 and 1 (2 with `allow_exaggeration`). Empty: none.
+    /// An update replaces the whole list when the mask names it, or without a mask when the list is not empty.
+    #[prost(message, repeated, tag = "15")]
+    pub bounds: ::prost::alloc::vec::Vec<ControlBounds>,
+    /// Pairs of which at most one control is active at a time, at most 16; each may cost two more solves a frame. Empty: none.
+    /// Updated as `bounds` are.
+    #[prost(message, repeated, tag = "16")]
+    pub exclusive_pairs: ::prost::alloc::vec::Vec<ControlPair>,
 }
 impl ::prost::Name for SessionSettings {
     const NAME: &'static str = "SessionSettings";
@@ -1455,6 +1474,46 @@ impl ::prost::Name for SessionSettings {
     }
     fn type_url() -> ::prost::alloc::string::String {
         "/frontalis.v1.SessionSettings".into()
+    }
+}
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct ControlBounds {
+    /// a muscle of the actor
+    #[prost(string, tag = "1")]
+    pub control: ::prost::alloc::string::String,
+    /// smallest activation, 0 \<= lower \<= upper
+    #[prost(float, tag = "2")]
+    pub lower: f32,
+    /// largest activation, at most 2
+    #[prost(float, tag = "3")]
+    pub upper: f32,
+}
+impl ::prost::Name for ControlBounds {
+    const NAME: &'static str = "ControlBounds";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.ControlBounds".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.ControlBounds".into()
+    }
+}
+/// Two muscles of the actor, neither with a lower bound above 0.
+#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct ControlPair {
+    #[prost(string, tag = "1")]
+    pub first: ::prost::alloc::string::String,
+    #[prost(string, tag = "2")]
+    pub second: ::prost::alloc::string::String,
+}
+impl ::prost::Name for ControlPair {
+    const NAME: &'static str = "ControlPair";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.ControlPair".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.ControlPair".into()
     }
 }
 #[derive(Clone, PartialEq, ::prost::Message)]
@@ -1517,7 +1576,7 @@ pub struct SessionStatus {
     pub take: ::prost::alloc::string::String,
     #[prost(uint32, tag = "13")]
     pub actor_revision: u32,
-    /// range seen per control; far beyond 0..1 says that the basis needs work
+    /// what each control went through, and what that says of its draft; at most 250 ms old
     #[prost(message, repeated, tag = "14")]
     pub ranges: ::prost::alloc::vec::Vec<ControlRange>,
     /// grows when the session starts over (created again under its id, or its unrecorded
@@ -1525,14 +1584,18 @@ pub struct SessionStatus {
     pub run: u64,
     /// samples were lost with the process); sequences count within a run
     ///
-    /// why the neutral face could not be aligned: UNITS_SUSPECT, MIRRORED, ...
+    /// why the last neutral face that was asked for could not be aligned: UNITS_SUSPECT,
     #[prost(string, tag = "16")]
     pub alignment_problem: ::prost::alloc::string::String,
+    /// MIRRORED, ...; in a live session the one before it holds on; empty: it could
     #[prost(message, optional, tag = "17")]
     pub clock: ::core::option::Option<ClockReport>,
     /// streamed, but not of this actor: recorded, not solved
     #[prost(string, repeated, tag = "18")]
     pub unknown_markers: ::prost::alloc::vec::Vec<::prost::alloc::string::String>,
+    /// absent: nothing speaks against the face that was taken as neutral
+    #[prost(message, optional, tag = "19")]
+    pub neutral_doubt: ::core::option::Option<NeutralDoubt>,
 }
 impl ::prost::Name for SessionStatus {
     const NAME: &'static str = "SessionStatus";
@@ -1542,6 +1605,31 @@ impl ::prost::Name for SessionStatus {
     }
     fn type_url() -> ::prost::alloc::string::String {
         "/frontalis.v1.SessionStatus".into()
+    }
+}
+/// The face that was taken as neutral probably was not.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct NeutralDoubt {
+    #[prost(enumeration = "NeutralDoubtCause", tag = "1")]
+    pub cause: i32,
+    /// root mean square distance of the neutral frames from the actor's neutral face, centimeters
+    #[prost(double, tag = "2")]
+    pub residual_cm: f64,
+    /// what it would be of a neutral face, centimeters: by the noise, or as seen in the quietest frames
+    #[prost(double, tag = "3")]
+    pub expected_cm: f64,
+    /// what to do, in plain words
+    #[prost(string, tag = "4")]
+    pub advice: ::prost::alloc::string::String,
+}
+impl ::prost::Name for NeutralDoubt {
+    const NAME: &'static str = "NeutralDoubt";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.NeutralDoubt".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.NeutralDoubt".into()
     }
 }
 /// The publisher's capture clock as the server sees it.
@@ -1649,17 +1737,34 @@ impl ::prost::Name for SubscriberStatus {
         "/frontalis.v1.SubscriberStatus".into()
     }
 }
+/// What one control went through (Choe & Ko 2001, section 3): far beyond 0..1 says that its shape needs work.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct ControlRange {
     #[prost(string, tag = "1")]
     pub control: ::prost::alloc::string::String,
+    /// smallest activation that was sent, since the session began
     #[prost(float, tag = "2")]
     pub min: f32,
+    /// largest
     #[prost(float, tag = "3")]
     pub max: f32,
-    /// Fraction of frames in which the unbounded solution lay outside \[-0.1, 1.1\].
+    /// Fraction of the `n_frames` in which the unbounded solution lay outside \[-0.1, 1.1\].
     #[prost(float, tag = "4")]
     pub out_of_range: f32,
+    /// frames behind the figures around it, since the alignment; 0: none yet
+    #[prost(uint64, tag = "5")]
+    pub n_frames: u64,
+    /// of the activations as they were sent; absent with `n_frames` 0
+    #[prost(message, optional, tag = "6")]
+    pub bounded: ::core::option::Option<Percentiles>,
+    /// of the least-squares solution without bounds, of the same frames
+    #[prost(message, optional, tag = "7")]
+    pub unbounded: ::core::option::Option<Percentiles>,
+    #[prost(enumeration = "RangeVerdict", tag = "8")]
+    pub verdict: i32,
+    /// what the verdict says to the artist, in plain words
+    #[prost(string, tag = "9")]
+    pub sentence: ::prost::alloc::string::String,
 }
 impl ::prost::Name for ControlRange {
     const NAME: &'static str = "ControlRange";
@@ -1669,6 +1774,25 @@ impl ::prost::Name for ControlRange {
     }
     fn type_url() -> ::prost::alloc::string::String {
         "/frontalis.v1.ControlRange".into()
+    }
+}
+#[derive(Clone, Copy, PartialEq, ::prost::Message)]
+pub struct Percentiles {
+    /// below it lies 1 % of the values
+    #[prost(float, tag = "1")]
+    pub p1: f32,
+    /// above it lies 1 % of the values
+    #[prost(float, tag = "2")]
+    pub p99: f32,
+}
+impl ::prost::Name for Percentiles {
+    const NAME: &'static str = "Percentiles";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.Percentiles".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.Percentiles".into()
     }
 }
 #[derive(Clone, PartialEq, ::prost::Message)]
@@ -1817,6 +1941,8 @@ impl ::prost::Name for UpdateSessionResponse {
 pub struct RecenterSessionRequest {
     #[prost(string, tag = "1")]
     pub name: ::prost::alloc::string::String,
+    #[prost(enumeration = "NeutralSource", tag = "2")]
+    pub source: i32,
 }
 impl ::prost::Name for RecenterSessionRequest {
     const NAME: &'static str = "RecenterSessionRequest";
@@ -1931,6 +2057,120 @@ impl RegionMode {
             "REGION_MODE_UNSPECIFIED" => Some(Self::Unspecified),
             "REGION_MODE_JOINT" => Some(Self::Joint),
             "REGION_MODE_SPLIT" => Some(Self::Split),
+            _ => None,
+        }
+    }
+}
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
+#[repr(i32)]
+pub enum NeutralDoubtCause {
+    Unspecified = 0,
+    /// contractions explain what the neutral frames leave, far beyond their noise
+    LooksContracted = 1,
+    /// later frames fit the neutral face clearly better than those that were taken
+    QuieterFramesSeen = 2,
+}
+impl NeutralDoubtCause {
+    /// String value of the enum field names used in the ProtoBuf definition.
+    ///
+    /// The values are not transformed in any way and thus are considered stable
+    /// (if the ProtoBuf definition does not change) and safe for programmatic use.
+    pub fn as_str_name(&self) -> &'static str {
+        match self {
+            Self::Unspecified => "NEUTRAL_DOUBT_CAUSE_UNSPECIFIED",
+            Self::LooksContracted => "NEUTRAL_DOUBT_CAUSE_LOOKS_CONTRACTED",
+            Self::QuieterFramesSeen => "NEUTRAL_DOUBT_CAUSE_QUIETER_FRAMES_SEEN",
+        }
+    }
+    /// Creates an enum from field names used in the ProtoBuf definition.
+    pub fn from_str_name(value: &str) -> ::core::option::Option<Self> {
+        match value {
+            "NEUTRAL_DOUBT_CAUSE_UNSPECIFIED" => Some(Self::Unspecified),
+            "NEUTRAL_DOUBT_CAUSE_LOOKS_CONTRACTED" => Some(Self::LooksContracted),
+            "NEUTRAL_DOUBT_CAUSE_QUIETER_FRAMES_SEEN" => Some(Self::QuieterFramesSeen),
+            _ => None,
+        }
+    }
+}
+/// A muscle's draft, judged by the performance so far.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
+#[repr(i32)]
+pub enum RangeVerdict {
+    /// not sent
+    Unspecified = 0,
+    /// too little was seen of it to say
+    NotYetSeen = 1,
+    /// nothing speaks against it
+    Sound = 2,
+    /// full contractions move the markers further than the draft does
+    TooWeak = 3,
+    /// its own contractions never come near 1
+    TooStrong = 4,
+    /// the markers move against it
+    WrongDirection = 5,
+    /// the markers hardly tell it from noise or from other muscles
+    HardlyObservable = 6,
+}
+impl RangeVerdict {
+    /// String value of the enum field names used in the ProtoBuf definition.
+    ///
+    /// The values are not transformed in any way and thus are considered stable
+    /// (if the ProtoBuf definition does not change) and safe for programmatic use.
+    pub fn as_str_name(&self) -> &'static str {
+        match self {
+            Self::Unspecified => "RANGE_VERDICT_UNSPECIFIED",
+            Self::NotYetSeen => "RANGE_VERDICT_NOT_YET_SEEN",
+            Self::Sound => "RANGE_VERDICT_SOUND",
+            Self::TooWeak => "RANGE_VERDICT_TOO_WEAK",
+            Self::TooStrong => "RANGE_VERDICT_TOO_STRONG",
+            Self::WrongDirection => "RANGE_VERDICT_WRONG_DIRECTION",
+            Self::HardlyObservable => "RANGE_VERDICT_HARDLY_OBSERVABLE",
+        }
+    }
+    /// Creates an enum from field names used in the ProtoBuf definition.
+    pub fn from_str_name(value: &str) -> ::core::option::Option<Self> {
+        match value {
+            "RANGE_VERDICT_UNSPECIFIED" => Some(Self::Unspecified),
+            "RANGE_VERDICT_NOT_YET_SEEN" => Some(Self::NotYetSeen),
+            "RANGE_VERDICT_SOUND" => Some(Self::Sound),
+            "RANGE_VERDICT_TOO_WEAK" => Some(Self::TooWeak),
+            "RANGE_VERDICT_TOO_STRONG" => Some(Self::TooStrong),
+            "RANGE_VERDICT_WRONG_DIRECTION" => Some(Self::WrongDirection),
+            "RANGE_VERDICT_HARDLY_OBSERVABLE" => Some(Self::HardlyObservable),
+            _ => None,
+        }
+    }
+}
+/// Where a new neutral face comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
+#[repr(i32)]
+pub enum NeutralSource {
+    /// treated as NEUTRAL_SOURCE_NEXT_FRAMES
+    Unspecified = 0,
+    /// the next `neutral_frames` usable frames
+    NextFrames = 1,
+    /// The quietest frames seen since the alignment, at once. FAILED_PRECONDITION / NOT_ALIGNED before there is one,
+    /// QUIETEST_FRAMES while too few were seen, or the reason for which they cannot be aligned; then nothing changes.
+    QuietestFrames = 2,
+}
+impl NeutralSource {
+    /// String value of the enum field names used in the ProtoBuf definition.
+    ///
+    /// The values are not transformed in any way and thus are considered stable
+    /// (if the ProtoBuf definition does not change) and safe for programmatic use.
+    pub fn as_str_name(&self) -> &'static str {
+        match self {
+            Self::Unspecified => "NEUTRAL_SOURCE_UNSPECIFIED",
+            Self::NextFrames => "NEUTRAL_SOURCE_NEXT_FRAMES",
+            Self::QuietestFrames => "NEUTRAL_SOURCE_QUIETEST_FRAMES",
+        }
+    }
+    /// Creates an enum from field names used in the ProtoBuf definition.
+    pub fn from_str_name(value: &str) -> ::core::option::Option<Self> {
+        match value {
+            "NEUTRAL_SOURCE_UNSPECIFIED" => Some(Self::Unspecified),
+            "NEUTRAL_SOURCE_NEXT_FRAMES" => Some(Self::NextFrames),
+            "NEUTRAL_SOURCE_QUIETEST_FRAMES" => Some(Self::QuietestFrames),
             _ => None,
         }
     }
@@ -2123,7 +2363,9 @@ pub mod session_service_client {
                 .insert(GrpcMethod::new("frontalis.v1.SessionService", "UpdateSession"));
             self.inner.unary(req, path, codec).await
         }
-        /// Takes the next usable frames as the neutral face again: alignment and displacement start over from them.
+        /// Takes another neutral face: the next usable frames, or the quietest that were seen. A session that has an alignment
+        /// goes on with it until the new one is known: it stays live, every frame gives its sample, and when the new face cannot
+        /// be aligned the old one holds on and `SessionStatus.alignment_problem` says why.
         pub async fn recenter_session(
             &mut self,
             request: impl tonic::IntoRequest<super::RecenterSessionRequest>,
@@ -2219,7 +2461,9 @@ pub mod session_service_server {
             tonic::Response<super::UpdateSessionResponse>,
             tonic::Status,
         >;
-        /// Takes the next usable frames as the neutral face again: alignment and displacement start over from them.
+        /// Takes another neutral face: the next usable frames, or the quietest that were seen. A session that has an alignment
+        /// goes on with it until the new one is known: it stays live, every frame gives its sample, and when the new face cannot
+        /// be aligned the old one holds on and `SessionStatus.alignment_problem` says why.
         async fn recenter_session(
             &self,
             request: tonic::Request<super::RecenterSessionRequest>,
@@ -2972,7 +3216,8 @@ pub mod capture_service_client {
     /// or 50 ms, whichever is first.
     /// A frame that cannot be used (an infinite coordinate, a wrong length) is answered by `rejected` and does not end the
     /// stream; a broken contract (unknown session, message without `start`, 100 rejected frames in a row) ends it. A neutral
-    /// face that cannot be aligned ends it too, with the reason, and the session waits for better frames.
+    /// face that cannot be aligned while there is no other ends it too, with the reason, and the session waits for better
+    /// frames.
     /// A message without frames keeps the stream alive. Closing the request side ends the publication: the last watermarks
     /// follow, and the session is free for another publisher at once.
     /// One publisher owns a session. The same `publisher` id reconnecting replaces its own older stream at once. Another id is
@@ -3169,7 +3414,8 @@ pub mod capture_service_server {
     /// or 50 ms, whichever is first.
     /// A frame that cannot be used (an infinite coordinate, a wrong length) is answered by `rejected` and does not end the
     /// stream; a broken contract (unknown session, message without `start`, 100 rejected frames in a row) ends it. A neutral
-    /// face that cannot be aligned ends it too, with the reason, and the session waits for better frames.
+    /// face that cannot be aligned while there is no other ends it too, with the reason, and the session waits for better
+    /// frames.
     /// A message without frames keeps the stream alive. Closing the request side ends the publication: the last watermarks
     /// follow, and the session is free for another publisher at once.
     /// One publisher owns a session. The same `publisher` id reconnecting replaces its own older stream at once. Another id is
@@ -3627,9 +3873,10 @@ pub struct Control {
     /// false: the session cannot observe it; its value stays 0
     #[prost(bool, tag = "3")]
     pub driven: bool,
-    /// bounds of the activation, finite: upper is 2 when exaggeration is allowed
+    /// bounds of the activation at the time of subscription, finite: `SessionSettings.bounds`, else 0
     #[prost(float, tag = "4")]
     pub lower: f32,
+    /// and 1, or 2 when exaggeration is allowed
     #[prost(float, tag = "5")]
     pub upper: f32,
 }
@@ -3654,7 +3901,9 @@ pub struct CurveSample {
     /// in header order; 0 relaxed, 1 fully contracted
     #[prost(float, repeated, tag = "4")]
     pub activations: ::prost::alloc::vec::Vec<f32>,
-    /// one sigma of each activation, when asked for
+    /// One sigma of each activation, in header order, when `with_uncertainty` asked for it: from the frame's evidence, the
+    /// terms of the objective and the noise seen lately. Finite; of a held or unobserved control what it was when it was last
+    /// seen, or more.
     #[prost(float, repeated, tag = "5")]
     pub standard_errors: ::prost::alloc::vec::Vec<f32>,
     #[prost(message, repeated, tag = "6")]
@@ -3699,6 +3948,9 @@ pub struct CurveSample {
     /// those seen in this frame, indices into Actor.markers
     #[prost(uint32, repeated, tag = "20")]
     pub observed_markers: ::prost::alloc::vec::Vec<u32>,
+    /// those seen and masked, because they lie far from what the others say, likewise
+    #[prost(uint32, repeated, tag = "21")]
+    pub outlier_markers: ::prost::alloc::vec::Vec<u32>,
 }
 impl ::prost::Name for CurveSample {
     const NAME: &'static str = "CurveSample";
@@ -3933,9 +4185,9 @@ impl Quality {
 #[repr(i32)]
 pub enum SampleFlag {
     Unspecified = 0,
-    /// at least one marker was weighed down or masked
+    /// `outlier_markers` names at least one
     Outlier = 1,
-    /// two markers were swapped back
+    /// the labels of two markers were swapped, and have been put right
     Relabeled = 2,
     TimeNonMonotonic = 3,
     TimecodeInvalid = 4,

@@ -8,7 +8,7 @@ use utoipa::IntoParams;
 use super::{
     Doors,
     call::{Answer, Call},
-    openapi::{self, ObjectRefusals, RangeRefusals, Refusals, StateRefusals},
+    openapi::{ObjectRefusals, RangeRefusals, Refusals, StateRefusals},
     query::SessionPath,
 };
 
@@ -28,9 +28,9 @@ pub(super) struct CurvesQuery {
     #[serde(default)]
     #[param(required = false, maximum = 1000)]
     limit: u32,
-    /// Fill `standardErrors`; this version cannot.
+    /// Fill `standardErrors`.
     #[serde(default)]
-    #[param(required = false, schema_with = openapi::not_yet)]
+    #[param(required = false)]
     with_uncertainty: bool,
     /// Fill `observedCm`, `reproducedCm` and `observedMarkers`.
     #[serde(default)]

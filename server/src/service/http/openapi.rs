@@ -23,7 +23,7 @@ use utoipa::openapi::OpenApi;
 
 use messages::Messages;
 
-pub(super) use parameters::{display_name, length_unit, not_yet};
+pub(super) use parameters::{display_name, length_unit};
 pub(super) use refusals::{BodyRefusals, ObjectRefusals, RangeRefusals, Refusals, StateRefusals};
 
 /// How a schema of this document is named.

@@ -158,7 +158,9 @@ pub(super) async fn update(
     Ok(answer(response.into_inner().session))
 }
 
-/// Takes the next usable frames as the neutral face again.
+/// Takes another neutral face: the next usable frames, or the quietest that were seen.
+///
+/// A live session goes on with its alignment until the new one is known.
 #[utoipa::path(
     post,
     path = "/api/v1/sessions/{id}/recenter",
@@ -181,10 +183,10 @@ pub(super) async fn update(
 pub(super) async fn recenter(
     State(doors): State<Doors>,
     call: Call,
-    Message(_message): Message<v1::RecenterSessionRequest>,
+    Message(message): Message<v1::RecenterSessionRequest>,
 ) -> Answer<v1::Session> {
     let name = call.name("sessions");
-    let request = call.request(v1::RecenterSessionRequest { name });
+    let request = call.request(v1::RecenterSessionRequest { name, ..message });
     let response = doors.services.sessions.recenter_session(request).await?;
     Ok(answer(response.into_inner().session))
 }

@@ -76,10 +76,6 @@ fn what_this_version_does_not_do_is_said() {
         control_space: 3,
         ..a_start()
     });
-    check(v1::SubscribeStart {
-        with_uncertainty: true,
-        ..a_start()
-    });
 }
 
 #[test]
@@ -148,10 +144,23 @@ fn a_wrong_field_is_named() {
 }
 
 #[test]
-fn a_response_is_as_short_as_it_must_be_for_a_slow_reader() {
-    let plain = SampleDetail::default();
-    let full = SampleDetail { with_markers: true };
-    assert_eq!(samples_in_a_response(16, 27, plain), 53);
-    assert_eq!(samples_in_a_response(16, 27, full), 17);
-    assert_eq!(samples_in_a_response(64, 1_024, full), 1);
+fn bounds_of_a_control_are_its_own_or_those_of_all() {
+    let muscle = Muscle {
+        name: "jaw_rotation".to_owned(),
+        region: frontalis_analysis::face::region::FaceRegion::Lower,
+    };
+    let bounds = |settings: &MarkerSettings| {
+        let it = control(&muscle, settings);
+        (it.lower, it.upper)
+    };
+    let mut settings = MarkerSettings::default();
+    assert_eq!(bounds(&settings), (0.0, 1.0));
+    settings.allow_exaggeration = true;
+    assert_eq!(bounds(&settings), (0.0, 2.0));
+    settings.objective.bounds = vec![MuscleBounds {
+        muscle: muscle.name.clone(),
+        lower: 0.25,
+        upper: 0.75,
+    }];
+    assert_eq!(bounds(&settings), (0.25, 0.75));
 }

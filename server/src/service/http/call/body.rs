@@ -10,6 +10,9 @@ use axum::{
     http::{HeaderMap, HeaderValue, StatusCode, header},
 };
 use bytes::BytesMut;
+use frontalis_analysis::{
+    face::actor::MAX_MUSCLES, marker_analysis::objective::MAX_EXCLUSIVE_PAIRS,
+};
 use http_body_util::BodyExt as _;
 use prost::Name;
 use tokio::sync::{Semaphore, SemaphorePermit};
@@ -28,8 +31,9 @@ use crate::{
     },
 };
 
-/// Most objects in a body: the message, and the settings in it.
-const MAX_OBJECTS: usize = 8;
+/// Most objects in a body: the message, the settings in it, and their bounds and pairs; a pair too many is still read, to be
+/// refused by name.
+const MAX_OBJECTS: usize = 8 + MAX_MUSCLES + 2 * MAX_EXCLUSIVE_PAIRS;
 
 /// The message of the body.
 pub(in crate::service::http) struct Message<T>(pub T);

@@ -38,8 +38,8 @@ pub(in super::super) struct EventsQuery {
     /// `muscles`, which is the default; this version has no other.
     #[param(required = false, value_type = String, pattern = "^((CONTROL_SPACE_)?MUSCLES|muscles|)$", example = "muscles")]
     control_space: Word,
-    /// Fill `standardErrors`; this version cannot.
-    #[param(required = false, schema_with = openapi::not_yet)]
+    /// Fill `standardErrors`.
+    #[param(required = false)]
     with_uncertainty: bool,
     /// Fill `observedCm`, `reproducedCm` and `observedMarkers`.
     #[param(required = false)]

@@ -60,6 +60,9 @@ fn field(message: &str, field: &FieldDescriptorProto, comment: &str, read: bool)
     }
     if field.label() == Label::Repeated {
         schema = json!({ "type": "array", "items": schema });
+        if let Some(most) = limits::max_items(message, field.name()) {
+            schema["maxItems"] = json!(most);
+        }
     }
     if read && !limits::required(message).contains(&field.json_name()) {
         schema = json!({ "oneOf": [{ "type": "null" }, schema] });

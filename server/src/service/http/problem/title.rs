@@ -120,6 +120,8 @@ const TITLES: &[(&str, &str)] = &[
     ("INTERNAL", "The server made a mistake"),
     ("PANIC", "The server made a mistake"),
     ("STORAGE", "The server cannot use its storage"),
+    ("NOT_ALIGNED", "The session has no neutral face yet"),
+    ("QUIETEST_FRAMES", "The quietest frames cannot be taken"),
     // What has no reason of its own is called by its code.
     ("ABORTED", "The call was given up"),
     ("ALREADY_EXISTS", "There is one already"),
