@@ -199,7 +199,7 @@ fn a_refusal_says_the_number_that_was_sent_and_not_the_name() {
     };
     assert_eq!(
         said(&names),
-        "exclusive_pairs: entry 2 names no muscle of choe-ko-16"
+        "settings.exclusive_pairs: entry 2 names no muscle of choe-ko-16"
     );
 }
 
