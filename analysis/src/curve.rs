@@ -75,6 +75,9 @@ pub struct CurveSample {
     pub capture_time_nanos: i64,
     /// Contractions in the order of the actor's [`crate::face::muscle::MuscleSet`]; 0 relaxed, 1 full.
     pub activations: Vec<f64>,
+    /// One sigma of each contraction, in the same order: from the frame's evidence, the terms of the objective and the noise
+    /// seen lately. Finite; of a held or unobserved muscle what it was when it was last seen, or more.
+    pub standard_errors: Vec<f64>,
     /// The worst of the regions, except that one held region beside a solved one makes the sample partial.
     pub quality: Quality,
     /// For how many frames in a row the values have stood still; 0 unless held.
@@ -85,6 +88,10 @@ pub struct CurveSample {
     pub head: Option<HeadPose>,
     /// Muscles that the visible markers cannot determine in this frame: they decay from their last value.
     pub unobserved: Vec<usize>,
+    /// Indices into the actor's markers of those seen that were masked, because they lie far from what the others say.
+    pub outliers: Vec<usize>,
+    /// Pairs of markers, by index, whose labels were swapped and have been put right.
+    pub relabeled: Vec<[usize; 2]>,
     /// The markers behind the sample.
     pub markers: MarkerTrace,
     /// KKT residual of the solution, relative to the largest diagonal entry of Q; 0 when held.

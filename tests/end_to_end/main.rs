@@ -3,7 +3,9 @@
 
 mod access;
 mod access_matrix;
+mod accuracy;
 mod api_page;
+mod audit;
 mod bad_input;
 mod citations;
 mod clients;
@@ -19,4 +21,5 @@ mod layering;
 mod load;
 mod openapi;
 mod real_takes;
+mod recentering;
 mod restart;

@@ -84,7 +84,7 @@ impl Stabilizer {
     }
 
     /// Adds exp(ω) about `center`, then τ. The product is brought back to a rotation, so that errors do not add up.
-    fn advance(&mut self, omega: Vector3<f64>, tau: Vector3<f64>, center: Vector3<f64>) {
+    pub fn advance(&mut self, omega: Vector3<f64>, tau: Vector3<f64>, center: Vector3<f64>) {
         let turn = Rotation3::from_scaled_axis(omega);
         let rotation = turn.matrix() * self.rotation;
         self.translation = turn * (self.translation - center) + center + tau;
@@ -124,10 +124,10 @@ impl JointProblem {
 
     /// Takes over the sums that do not depend on the motion: the muscles' block and the translation's. Every muscle gets
     /// its box.
-    pub fn set_evidence(&mut self, evidence: &Evidence, upper: f64) {
+    pub fn set_evidence(&mut self, evidence: &Evidence, boxes: &[[f64; 2]]) {
         let m = evidence.parts.len();
-        for i in 0..m {
-            self.qp.set_bounds(i, 0.0, upper);
+        for (i, [lower, upper]) in boxes.iter().enumerate() {
+            self.qp.set_bounds(i, *lower, *upper);
         }
         let (size, stride) = (m + MOTION, self.qp.stride());
         let n = evidence.used.len() as f64;

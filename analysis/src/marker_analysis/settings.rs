@@ -1,5 +1,7 @@
 //! What a session may choose about the analysis of its markers.
 
+use super::objective::{LARGEST_BOUND, Objective};
+
 /// How the regions of the face share one frame's problem.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum RegionMode {
@@ -23,6 +25,8 @@ pub struct MarkerSettings {
     pub stabilize_head: bool,
     /// Align only after [`recenter`](crate::analyzer::MarkerAnalyzer::recenter), not on the first frames.
     pub align_on_request: bool,
+    /// Terms beside the paper's least squares, and bounds.
+    pub objective: Objective,
 }
 
 impl Default for MarkerSettings {
@@ -33,13 +37,26 @@ impl Default for MarkerSettings {
             region_mode: RegionMode::Joint,
             stabilize_head: true,
             align_on_request: false,
+            objective: Objective::default(),
         }
     }
 }
 
 impl MarkerSettings {
-    /// Upper bound of every contraction.
+    /// The paper's objective, nothing added; everything else by default.
+    pub fn plain() -> Self {
+        Self {
+            objective: Objective::plain(),
+            ..Self::default()
+        }
+    }
+
+    /// Upper bound of every contraction that has none of its own.
     pub fn upper_bound(&self) -> f64 {
-        if self.allow_exaggeration { 2.0 } else { 1.0 }
+        if self.allow_exaggeration {
+            LARGEST_BOUND
+        } else {
+            1.0
+        }
     }
 }

@@ -225,3 +225,6 @@ impl fmt::Debug for Access {
         formatter.write_str("Access(***)")
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -114,7 +114,11 @@ async fn f12_a_renegotiation_is_refused() {
     };
     println!("F12: {}", version.trim());
     let authority = TestAuthority::new("authority");
-    let server = server(&authority, |_| {}).await;
+    // A refused renegotiation is no request: the connection ends as one that asks for nothing.
+    let server = server(&authority, |config| {
+        config.transport.header_deadline_secs = 1;
+    })
+    .await;
     beside_a_control_session_of("F12 renegotiation", server, async |stage| {
         let address = stage.server.address().to_string();
         let ca = authority.ca_file();

@@ -156,7 +156,8 @@ async fn e4_groups_nested_thirty_thousand_deep_are_closed_with_1007() {
     beside_a_control_session("E4 WebSocket", async |stage| {
         let groups = SocketFrames::frame(0x82, &[0xa3, 0x06].repeat(30_000));
         for subprotocol in [PROTOBUF, PUBLISH_PROTOBUF] {
-            let answer = closed_after(&stage.server, subprotocol, &[groups.clone()]).await;
+            let answer =
+                closed_after(&stage.server, subprotocol, std::slice::from_ref(&groups)).await;
             assert_eq!(answer, closed(1007, "PROTOBUF"), "{subprotocol}");
         }
     })

@@ -1,7 +1,7 @@
 //! `CurveService`: curves out.
 //!
 //! A stream pulls from its subscription when its connection has room, so that nothing is queued for a subscriber that
-//! does not read (CONTRACTS D-14, D-19). It frees its place when it is dropped, and when its reader is [blocked](reader).
+//! does not read (CONTRACTS D-14, D-19). It frees its place when it is dropped, and when its reader is blocked.
 
 mod reader;
 
@@ -88,7 +88,15 @@ impl CurvesGrpc {
             peer.address_name(),
             peer.door.name(),
             can_return_credits,
-        )?;
+        )
+        // Who can return credits sends the start as a part of a message.
+        .map_err(|error| {
+            if can_return_credits {
+                error.inside("start")
+            } else {
+                error
+            }
+        })?;
         peer.caller.may_in(Action::Subscribe, &request.session)?;
         let session = in_process(&self.registry, &self.store, &request.session).await?;
         let mut subscription = session.hub().subscribe(request.spec)?;

@@ -8,7 +8,6 @@ use super::{curves::MAX_PAUSE, status::Refusal};
 use crate::{
     hub::{LostRange, SubscribeError},
     session::{PublishEnd, SessionError, alignment_problem},
-    wire::curve::SubscribeRefusal,
 };
 
 /// When a subscriber may find room.
@@ -49,18 +48,6 @@ impl From<SubscribeError> for Status {
             SubscribeError::SessionFull { limit } => full("limits.subscribers_per_session", limit),
             SubscribeError::ServerFull { limit } => full("limits.subscribers", limit),
             SubscribeError::Range(error) => error.into(),
-        }
-    }
-}
-
-impl From<SubscribeRefusal> for Status {
-    fn from(refusal: SubscribeRefusal) -> Self {
-        let message = refusal.to_string();
-        match refusal {
-            SubscribeRefusal::Invalid(error) => error.into(),
-            SubscribeRefusal::NotImplemented { .. } => {
-                Refusal::new(Code::Unimplemented, "NOT_IMPLEMENTED", message).into_status()
-            }
         }
     }
 }

@@ -52,7 +52,8 @@ pub(super) fn settings() -> SessionSettings {
     SessionSettings {
         marker: MarkerSettings {
             neutral_frames: usize::try_from(NEUTRAL_FRAMES).unwrap(),
-            ..MarkerSettings::default()
+            // Faces jump from frame to frame here, and their curves are known.
+            ..MarkerSettings::plain()
         },
         ..SessionSettings::default()
     }

@@ -254,12 +254,6 @@ async fn what_cannot_be_subscribed_is_refused_with_its_reason() {
         "NOT_IMPLEMENTED",
     )
     .await;
-    check(
-        |it| it.with_uncertainty = true,
-        Code::Unimplemented,
-        "NOT_IMPLEMENTED",
-    )
-    .await;
     check(|it| it.control_space = 9, Code::InvalidArgument, "ENUM").await;
     let mut hasty = stage.silent_renderer();
     hasty.grant(1).await;

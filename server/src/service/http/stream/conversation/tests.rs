@@ -52,6 +52,7 @@ fn talk_to(
         let topic = Topic {
             session: "sessions/one".into(),
             instance: "/here".into(),
+            taken: Taken::none("message"),
             form: Form::Json,
             limit_bytes: LIMIT_BYTES,
             finishes: false,
