@@ -67,8 +67,11 @@ pub(super) async fn publish(
 ) -> Result<Response, Problem> {
     let peer = Peer::of(call.extensions());
     CaptureGrpc::admit(&peer.caller)?;
-    check_encoding(request.headers())?;
-    check_content_type(request.headers())?;
+    if let Err(complaint) = check_headers(request.headers()) {
+        // A body that is not read does not take the session over.
+        CaptureGrpc::action(&peer.caller, false)?;
+        return Err(complaint);
+    }
     let instance = request.uri().path().to_owned();
     let limit_bytes = doors.services.max_message_bytes;
     let lines = Lines::new(request.into_body().into_data_stream(), limit_bytes);
@@ -89,7 +92,8 @@ pub(super) async fn publish(
 }
 
 /// A form of another site can send no such type, so that it must ask first.
-fn check_content_type(headers: &HeaderMap) -> Result<(), Problem> {
+fn check_headers(headers: &HeaderMap) -> Result<(), Problem> {
+    check_encoding(headers)?;
     if media_type(headers).as_deref() == Some(NDJSON) {
         return Ok(());
     }

@@ -55,7 +55,7 @@ fn a_field_is_read_by_both_of_its_names() {
         r#"{"actorRevision":3,"actor_revision":3}"#,
         "JSON",
         "actorRevision",
-        "line 1, column 36: actorRevision stands twice",
+        "line 1, column 35: actorRevision stands twice",
     );
 }
 

@@ -100,8 +100,9 @@ fn what_is_written_has_one_form_and_what_is_read_has_all() {
     let schemas = &whole()["components"]["schemas"];
     let run = &schemas["SessionStatus"]["properties"]["run"];
     assert_eq!(run["type"], "string");
-    let revision = &schemas["UpdateSessionRequest"]["properties"]["actorRevision"];
-    assert_eq!(revision["type"], json!(["integer", "string"]));
+    let revision = &schemas["UpdateSessionRequest"]["properties"]["actorRevision"]["oneOf"];
+    assert_eq!(revision[0], json!({ "type": "null" }));
+    assert_eq!(revision[1]["type"], json!(["integer", "string"]));
     let update = schemas["UpdateSessionRequest"]["properties"].as_object();
     assert!(!update.unwrap().contains_key("name"));
 }
