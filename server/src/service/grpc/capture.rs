@@ -84,6 +84,18 @@ impl CaptureGrpc {
             .or_else(|refused| caller.may(Action::TakeOver).map_err(|_| refused))
     }
 
+    /// What a caller does that publishes, if it may: who may only take sessions over must do so.
+    pub(in crate::service) fn action(caller: &Caller, takes_over: bool) -> Result<Action, Status> {
+        match (caller.may(Action::Publish), caller.may(Action::TakeOver)) {
+            (_, Ok(())) if takes_over => Ok(Action::TakeOver),
+            (Ok(()), _) => Ok(Action::Publish),
+            (Err(_), Ok(())) => {
+                Err(caller.denied("the caller's role publishes only with takeover"))
+            }
+            (Err(refused), Err(_)) => Err(refused),
+        }
+    }
+
     async fn open(
         &self,
         sent: v1::PublishStart,
@@ -194,7 +206,8 @@ where
         let caller = &self.peer.caller;
         CaptureGrpc::admit(caller)?;
         let first = first_message(&mut self.requests, &self.service.registry).await;
-        let action = action(caller, &first)?;
+        // The role comes before what is wrong with the message.
+        let action = CaptureGrpc::action(caller, takes_over(&first))?;
         let request = first?;
         let missing = || protocol_order("the first message must be start");
         let publication = self
@@ -211,24 +224,13 @@ where
     }
 }
 
-/// What a first message asks for, if the caller may do that: the role comes before what is wrong with the message.
+/// Whether a first message takes a session over; one that cannot be read does not say so.
 ///
-/// Whoever may only take sessions over is told so unless the message says that it does; one that cannot be read does not
-/// say it. That none came has nothing to do with roles.
-fn action(
-    caller: &Caller,
-    first: &Result<v1::PublishMarkersRequest, Status>,
-) -> Result<Action, Status> {
-    let takes_over = match first {
+/// That none came says nothing of the caller: it is heard by everyone.
+fn takes_over(first: &Result<v1::PublishMarkersRequest, Status>) -> bool {
+    match first {
         Ok(request) => request.start.as_ref().is_some_and(|it| it.takeover),
-        Err(none) if matches!(none.code(), Code::Unavailable | Code::DeadlineExceeded) => true,
-        Err(_unreadable) => false,
-    };
-    match (caller.may(Action::Publish), caller.may(Action::TakeOver)) {
-        (_, Ok(())) if takes_over => Ok(Action::TakeOver),
-        (Ok(()), _) => Ok(Action::Publish),
-        (Err(_), Ok(())) => Err(caller.denied("the caller's role publishes only with takeover")),
-        (Err(refused), Err(_)) => Err(refused),
+        Err(status) => matches!(status.code(), Code::Unavailable | Code::DeadlineExceeded),
     }
 }
 
