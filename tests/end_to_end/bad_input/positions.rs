@@ -41,14 +41,20 @@ async fn i11_a_position_that_is_no_longer_kept_names_the_first_that_is() {
                 .await;
         }
         publisher.accepted(TOO_MANY_FRAMES).await.unwrap();
+        // What is taken is yet to be solved: until then the window moves on, faster than a subscriber may read it.
+        let mut newest = Subscriber::open(&stage.server, latest(SUBJECT, 32))
+            .await
+            .unwrap();
+        while newest.sample().await.unwrap().frame < TOO_MANY_FRAMES {
+            newest.grant(1).await;
+        }
         let mut subscriber = Subscriber::open(&stage.server, every_frame(SUBJECT))
             .await
             .unwrap();
         let oldest = subscriber.sample().await.unwrap().sequence;
         assert!(oldest > 1, "everything fits the window");
         let refused = refused_from(&stage.server, 1).await;
-        // The window may have moved on since.
-        assert_out_of_range(&refused, &[]);
+        assert_out_of_range(&refused, &[&oldest.to_string()]);
     })
     .await;
 }

@@ -63,6 +63,7 @@ const TITLES: &[(&str, &str)] = &[
     ("JSON", "The JSON cannot be used"),
     ("PROTOBUF", "The protobuf message cannot be read"),
     ("UTF8", "The text is not UTF-8"),
+    ("BASE64", "The text is not base64"),
     ("BODY", "The body is not complete"),
     ("EVENT_ID", "The id of the last event cannot be used"),
     ("ENUM", "There is no such value"),
