@@ -31,14 +31,13 @@ async fn e2_a_prefix_larger_than_its_data_ends_in_time_and_reserves_nothing() {
             for _ in 0..N_WAITING {
                 calls.push(connection.call(path, &[]).await);
             }
-            // Asked behind them, so they have been read.
-            connection.answer(path, &framed(b"")).await;
+            until_all_wait(&stage.server, &mut connection, path).await;
             let (before, before_data) = (program.resident_bytes(), program.data_bytes());
             let content = vec![0x0a; sent_bytes];
             for call in &mut calls {
                 call.send(&prefixed(0, declared_bytes, &content)).await;
             }
-            connection.answer(path, &framed(b"")).await;
+            until_all_wait(&stage.server, &mut connection, path).await;
             let grown = program.resident_bytes().saturating_sub(before);
             let reserved = program.data_bytes().saturating_sub(before_data);
             println!(
@@ -129,6 +128,22 @@ async fn e5_messages_that_grow_when_they_are_decoded_cost_less_than_16_mib() {
         assert_refused(&refused, Code::InvalidArgument, "MESSAGE_PARTS");
     })
     .await;
+}
+
+/// Answers in a row during which the server takes no more memory: what was sent before has then been dealt with.
+const N_STEADY: usize = 20;
+
+/// Waits until the calls that were sent before have come as far as they can.
+///
+/// An answer to a call behind them says that their frames were read, not that each has been run.
+async fn until_all_wait(server: &TestServer, connection: &mut RawConnection, path: &str) {
+    let (mut most, mut n_steady) = (0, 0);
+    while n_steady < N_STEADY {
+        connection.answer(path, &framed(b"")).await;
+        let resident = server.program().resident_bytes();
+        n_steady = if resident > most { 0 } else { n_steady + 1 };
+        most = most.max(resident);
+    }
 }
 
 /// A field that holds these bytes.
