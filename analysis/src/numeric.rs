@@ -3,4 +3,8 @@
 pub mod box_qp;
 pub(crate) mod dot;
 pub mod factor;
+mod lanes;
+mod pivots;
+pub(crate) mod projection;
 pub mod similarity_fit;
+pub mod standing_qp;

@@ -57,6 +57,8 @@ pub struct ContractionSolver {
 
     /// Contractions in the solver's order.
     x: Vec<f64>,
+    /// Where they stood before the joint problem of this frame.
+    x_before: Vec<f64>,
     motion: Stabilizer,
     /// Frames since the motion was last found; `None` before the first.
     frames_since_pose: Option<u64>,
@@ -94,6 +96,7 @@ impl ContractionSolver {
             rate_hz,
             decay: decay(rate_hz),
             x: vec![0.0; m],
+            x_before: vec![0.0; m],
             motion: Stabilizer::identity(),
             frames_since_pose: None,
             head_known: false,
@@ -162,9 +165,10 @@ impl ContractionSolver {
 
     /// Moves the visible markers into model space.
     fn align(&mut self, positions: &[Option<PerformancePoint>]) {
-        for (j, &marker) in self.model.markers.iter().enumerate() {
-            self.visible[j] = positions[marker].is_some();
-            self.aligned[j] = positions[marker].map_or(Vector3::zeros(), |it| {
+        let places = self.visible.iter_mut().zip(&mut self.aligned);
+        for (&marker, (visible, aligned)) in self.model.markers.iter().zip(places) {
+            *visible = positions[marker].is_some();
+            *aligned = positions[marker].map_or(Vector3::zeros(), |it| {
                 self.linear_part * it.0.coords + self.translation_cm
             });
         }
@@ -233,7 +237,7 @@ impl ContractionSolver {
             self.hold_all(HeldReason::DegeneratePose);
             return false;
         }
-        let before = self.x.clone();
+        self.x_before.copy_from_slice(&self.x);
         fix(&mut self.joint.qp, &evidence.parts, &self.x);
         let report = self.joint.solve(
             &self.model,
@@ -244,7 +248,7 @@ impl ContractionSolver {
             &mut self.x,
         );
         let Ok(report) = report else {
-            self.x = before;
+            self.x.copy_from_slice(&self.x_before);
             self.hold_all(HeldReason::SolverBudget);
             return false;
         };
@@ -255,7 +259,7 @@ impl ContractionSolver {
             *stabilized = self.motion.apply(aligned);
         }
         if self.region_mode == RegionMode::Split {
-            self.x = before;
+            self.x.copy_from_slice(&self.x_before);
             self.solve_still(evidence);
         }
         true
@@ -268,12 +272,7 @@ impl ContractionSolver {
             return true;
         }
         self.reproduce();
-        let expected: Vec<Vector3<f64>> = self
-            .reproduced
-            .chunks_exact(3)
-            .map(Vector3::from_column_slice)
-            .collect();
-        match Stabilizer::fitted(&self.model, evidence, &self.aligned, &expected) {
+        match Stabilizer::fitted(&self.model, evidence, &self.aligned, &self.reproduced) {
             Some(motion) => {
                 self.motion = motion;
                 true
@@ -322,10 +321,14 @@ impl ContractionSolver {
                 continue;
             }
             let own = self.model.own_markers[index].clone();
+            let (reproduced, _) = self.reproduced.as_chunks::<3>();
+            let pairs = self.stabilized[own.clone()]
+                .iter()
+                .zip(&reproduced[own.clone()]);
             let mut sum = 0.0;
-            for j in own.filter(|&j| evidence.visible[j]) {
-                let reproduced = Vector3::from_column_slice(&self.reproduced[3 * j..3 * j + 3]);
-                sum += (self.stabilized[j] - reproduced).norm();
+            for (visible, (observed, reproduced)) in evidence.visible[own].iter().zip(pairs) {
+                let error = (observed - Vector3::from(*reproduced)).norm();
+                sum += if *visible { error } else { 0.0 };
             }
             region.marker_error_cm = sum / region.visible.max(1) as f64;
         }

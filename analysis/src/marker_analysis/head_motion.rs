@@ -64,13 +64,15 @@ impl Stabilizer {
         .inverse()
     }
 
-    /// The best rigid fit of the used markers to where `x` would put them, trusting those most that muscles move least.
+    /// The best rigid fit of the used markers to where they are `expected` (x y z of each after the other), trusting those
+    /// most that muscles move least.
     pub fn fitted(
         model: &MarkerModel,
         evidence: &Evidence,
         aligned: &[Vector3<f64>],
-        expected: &[Vector3<f64>],
+        expected: &[f64],
     ) -> Option<Self> {
+        let (expected, _) = expected.as_chunks::<3>();
         let pairs = evidence.used.iter().map(|&j| {
             let noise = FIT_MOBILITY_SHARE * model.mobility(j);
             let weight = 1.0 / (FIT_SIGMA_CM * FIT_SIGMA_CM + noise * noise);

@@ -10,6 +10,7 @@ use nalgebra::Vector3;
 use crate::{
     face::{actor::Actor, basis::MarkerBasis, region::FaceRegion},
     marker_analysis::alignment::Alignment,
+    numeric::projection::support,
 };
 
 #[derive(Clone, Debug)]
@@ -136,14 +137,6 @@ impl MarkerModel {
             .sum();
         squared.sqrt()
     }
-}
-
-/// From the first to the last entry that is not 0.
-fn support(column: &[f64]) -> Range<usize> {
-    let moves = |it: &f64| *it != 0.0;
-    let start = column.iter().position(moves).unwrap_or(0);
-    let end = column.iter().rposition(moves).map_or(0, |it| it + 1);
-    start..end
 }
 
 /// The kept items sorted by region (`None` last), with the range of each region.

@@ -43,8 +43,10 @@ pub struct BoxQp {
     free: Vec<usize>,
     /// The unknowns that are bound at another value than 0, ascending.
     offset: Vec<usize>,
-    /// The last solution, as long as `side`, `free` and `offset` are those of it.
-    solution: Option<Vec<f64>>,
+    /// The last solution.
+    solution: Vec<f64>,
+    /// Whether `side`, `free` and `offset` are those of the last solution.
+    solution_stands: bool,
     /// The free set that `factor` belongs to; empty when Q has changed since.
     factored: Vec<usize>,
     factor: Factor,
@@ -90,7 +92,8 @@ impl BoxQp {
             is_free: vec![0.0; m],
             free: Vec::with_capacity(m),
             offset: Vec::with_capacity(m),
-            solution: None,
+            solution: vec![0.0; m],
+            solution_stands: false,
             factored: Vec::with_capacity(m),
             factor: Factor::with_capacity(m),
             target: vec![0.0; stride],
@@ -107,6 +110,11 @@ impl BoxQp {
     /// Distance of the columns of Q: m, padded to a multiple of [`LANES`]; the padding is 0.
     pub fn stride(&self) -> usize {
         self.stride
+    }
+
+    /// Q, columns [`BoxQp::stride`] apart.
+    pub(super) fn hessian(&self) -> &[f64] {
+        &self.hessian
     }
 
     /// Whether there is nothing to solve for.
@@ -131,7 +139,7 @@ impl BoxQp {
         assert!(lower.is_finite() && upper.is_finite() && lower <= upper);
         self.lower[unknown] = lower;
         self.upper[unknown] = upper;
-        self.solution = None;
+        self.solution_stands = false;
     }
 
     /// Solves for `x`, which holds the start on entry (any values; they are moved into the box) and the solution on return.
@@ -140,15 +148,13 @@ impl BoxQp {
     ///
     /// When Q is not positive definite on the free unknowns, or the step limit is reached; `x` is then some point of the box.
     pub fn solve(&mut self, c: &[f64], x: &mut [f64]) -> Result<Report, BoxQpError> {
-        let known = self.solution.take();
-        if known.as_deref() != Some(x) {
+        if !(self.solution_stands && self.solution == x) {
             self.start(x);
         }
+        self.solution_stands = false;
         let report = self.solve_started(c, x)?;
-        let mut solution = known.unwrap_or_default();
-        solution.clear();
-        solution.extend_from_slice(x);
-        self.solution = Some(solution);
+        self.solution.copy_from_slice(x);
+        self.solution_stands = true;
         Ok(report)
     }
 
