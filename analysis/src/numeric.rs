@@ -3,7 +3,7 @@
 pub mod box_qp;
 pub(crate) mod dot;
 pub mod factor;
-mod lanes;
+pub(crate) mod lanes;
 mod pivots;
 pub(crate) mod projection;
 pub mod similarity_fit;

@@ -19,6 +19,7 @@ use super::{
 use crate::{
     curve::HeldReason,
     face::{actor::Actor, region::FaceRegion},
+    numeric::lanes::add_multiple_of,
     space::{HeadPose, PerformancePoint},
 };
 
@@ -74,6 +75,10 @@ pub struct ContractionSolver {
     aligned: Vec<Vector3<f64>>,
     stabilized: Vec<Vector3<f64>>,
     reproduced: Vec<f64>,
+    /// |observed − reproduced| of every marker, visible or not, centimeters.
+    errors: Vec<f64>,
+    /// The muscles that are not at rest, in front.
+    active: Vec<usize>,
 }
 
 impl ContractionSolver {
@@ -109,6 +114,8 @@ impl ContractionSolver {
             aligned: vec![Vector3::zeros(); n],
             stabilized: vec![Vector3::zeros(); n],
             reproduced: vec![0.0; 3 * n],
+            errors: vec![0.0; n],
+            active: vec![0; m],
             model,
         }
     }
@@ -302,33 +309,40 @@ impl ContractionSolver {
     /// p = p₀ + D x at every marker.
     fn reproduce(&mut self) {
         self.reproduced.copy_from_slice(&self.model.rest_by_rows);
-        for (i, &x) in self.x.iter().enumerate() {
-            if x != 0.0 {
-                let support = self.model.support[i].clone();
-                let column = &self.model.column(i)[support.clone()];
-                for (p, d) in self.reproduced[support].iter_mut().zip(column) {
-                    *p += x * d;
-                }
-            }
+        // Listed without a branch a muscle: which of them are at rest changes with every frame.
+        let mut n_active = 0;
+        for (muscle, &x) in self.x.iter().enumerate() {
+            self.active[n_active] = muscle;
+            n_active += usize::from(x != 0.0);
+        }
+        for &muscle in &self.active[..n_active] {
+            let support = self.model.support[muscle].clone();
+            let column = &self.model.column(muscle)[support.clone()];
+            add_multiple_of(&mut self.reproduced[support], self.x[muscle], column);
         }
     }
 
     /// Per-frame marker error of each region (Choe & Ko 2001, section 5).
     fn measure_errors(&mut self, evidence: &Evidence) {
         self.reproduce();
+        let (reproduced, _) = self.reproduced.as_chunks::<3>();
+        let pairs = self.stabilized.iter().zip(reproduced);
+        for (error, (observed, reproduced)) in self.errors.iter_mut().zip(pairs) {
+            *error = (observed - Vector3::from(*reproduced)).norm_squared();
+        }
+        // In a loop of their own, so that two roots are taken at once.
+        for error in &mut self.errors {
+            *error = error.sqrt();
+        }
         for (index, region) in self.regions.iter_mut().enumerate() {
             if region.held.is_some() {
                 continue;
             }
             let own = self.model.own_markers[index].clone();
-            let (reproduced, _) = self.reproduced.as_chunks::<3>();
-            let pairs = self.stabilized[own.clone()]
-                .iter()
-                .zip(&reproduced[own.clone()]);
+            let errors = evidence.visible[own.clone()].iter().zip(&self.errors[own]);
             let mut sum = 0.0;
-            for (visible, (observed, reproduced)) in evidence.visible[own].iter().zip(pairs) {
-                let error = (observed - Vector3::from(*reproduced)).norm();
-                sum += if *visible { error } else { 0.0 };
+            for (visible, error) in errors {
+                sum += if *visible { *error } else { 0.0 };
             }
             region.marker_error_cm = sum / region.visible.max(1) as f64;
         }

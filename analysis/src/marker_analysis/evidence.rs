@@ -55,7 +55,7 @@ pub(super) struct Evidence {
     pub gram: Vec<f64>,
     /// Σ dᵢⱼ over the used markers, one a muscle.
     pub displacement_sums: Vec<Vector3<f64>>,
-    /// Neutral markers about the mean of the used ones, one a marker.
+    /// Neutral markers about the mean of the used ones, one a marker; 0 for those not used.
     rest_arms: Vec<Vector3<f64>>,
     /// Determinant of the scatter of the used neutral markers; 0 where they are flat.
     rest_volume: f64,
@@ -76,11 +76,11 @@ impl Evidence {
             displacement_sums: (0..model.n_muscles())
                 .map(|i| used.iter().map(|&j| model.displacement(i, j)).sum())
                 .collect(),
+            rest_arms: rest_arms(model, &used, &rest_mean),
             visible: visible.to_vec(),
             used,
             own_used,
             regions,
-            rest_arms: model.rest.iter().map(|it| it - rest_mean).collect(),
             rest_volume,
         }
     }
@@ -96,8 +96,8 @@ impl Evidence {
     /// expressions change it by a fraction, flat and mirrored sets make it vanish or turn its sign.
     pub fn is_degenerate(&self, positions: &[Vector3<f64>]) -> bool {
         let mut covariance = Matrix3::zeros();
-        for &j in &self.used {
-            covariance += self.rest_arms[j] * positions[j].transpose();
+        for (arm, position) in self.rest_arms.iter().zip(positions) {
+            covariance += arm * position.transpose();
         }
         let volume = covariance.determinant();
         self.rest_volume <= 0.0 || volume.is_nan() || volume < LEAST_VOLUME_SHARE * self.rest_volume
@@ -181,6 +181,14 @@ pub(super) fn gram(model: &MarkerModel, used: &[usize]) -> Vec<f64> {
         }
     }
     gram
+}
+
+fn rest_arms(model: &MarkerModel, used: &[usize], mean: &Vector3<f64>) -> Vec<Vector3<f64>> {
+    let mut arms = vec![Vector3::zeros(); model.n_markers()];
+    for &j in used {
+        arms[j] = model.rest[j] - mean;
+    }
+    arms
 }
 
 fn rest_volume(model: &MarkerModel, used: &[usize]) -> (Vector3<f64>, f64) {

@@ -10,7 +10,7 @@ use nalgebra::Vector3;
 use crate::{
     face::{actor::Actor, basis::MarkerBasis, region::FaceRegion},
     marker_analysis::alignment::Alignment,
-    numeric::projection::support,
+    numeric::{lanes::CHUNK, projection::support},
 };
 
 #[derive(Clone, Debug)]
@@ -33,7 +33,7 @@ pub(super) struct MarkerModel {
     pub rows: Vec<f64>,
     /// D by columns: entry `muscle * 3 * n_markers + 3 * marker + axis`, centimeters.
     pub columns: Vec<f64>,
-    /// The coordinates that each muscle moves: all others of its column are 0.
+    /// The coordinates that each muscle moves: all others of its column are 0. Widened to whole chunks of the loops.
     pub support: Vec<Range<usize>>,
 }
 
@@ -81,7 +81,7 @@ impl MarkerModel {
         };
         model.lay_out(&basis);
         model.support = (0..model.n_muscles())
-            .map(|muscle| support(model.column(muscle)))
+            .map(|muscle| widened(&support(model.column(muscle)), 3 * model.n_markers()))
             .collect();
         model
     }
@@ -137,6 +137,13 @@ impl MarkerModel {
             .sum();
         squared.sqrt()
     }
+}
+
+/// The chunks of `0..n` that hold `range`. All of them start where chunks of others do: a processor waits when it reads what
+/// is half of one entry and half of the next of those just written.
+fn widened(range: &Range<usize>, n: usize) -> Range<usize> {
+    let end = range.end.next_multiple_of(CHUNK).min(n);
+    range.start / CHUNK * CHUNK..end
 }
 
 /// The kept items sorted by region (`None` last), with the range of each region.

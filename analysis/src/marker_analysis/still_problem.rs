@@ -83,9 +83,9 @@ impl StillProblem {
     ) -> f64 {
         let mut kkt_residual = 0.0_f64;
         self.before.copy_from_slice(x);
+        let (displacements, _) = self.displacements.as_chunks_mut::<3>();
         for &j in &evidence.used {
-            let displacement = positions[j] - model.rest[j];
-            self.displacements[3 * j..3 * j + 3].copy_from_slice(displacement.as_slice());
+            displacements[j] = (positions[j] - model.rest[j]).into();
         }
         let solved = |it: &&mut Block| !it.is_held(evidence);
         for block in self.blocks.iter_mut().filter(solved) {

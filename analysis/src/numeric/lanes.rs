@@ -8,6 +8,9 @@ const WIDEST: usize = 16;
 /// Lanes of a group of a problem that is cut into groups.
 const GROUP: usize = 8;
 
+/// Entries that loops over slices take at once.
+pub(crate) const CHUNK: usize = 4;
+
 /// Lanes of one group for `n` numbers: all of them in one group, made even, or groups of [`GROUP`].
 pub(crate) fn width(n: usize) -> usize {
     if n > WIDEST {
@@ -70,6 +73,18 @@ pub(crate) fn largest<const W: usize>(mut lanes: [f64; W]) -> f64 {
 #[inline]
 pub(crate) fn add_multiple<const W: usize>(y: &mut [f64; W], a: f64, x: &[f64; W]) {
     for (y, x) in y.iter_mut().zip(x) {
+        *y += a * x;
+    }
+}
+
+/// `y += a * x` for slices; those whose length is a multiple of [`CHUNK`] are fastest.
+pub(crate) fn add_multiple_of(y: &mut [f64], a: f64, x: &[f64]) {
+    let (chunks, rest) = y.as_chunks_mut::<CHUNK>();
+    let (x_chunks, x_rest) = x.as_chunks::<CHUNK>();
+    for (y, x) in chunks.iter_mut().zip(x_chunks) {
+        add_multiple(y, a, x);
+    }
+    for (y, x) in rest.iter_mut().zip(x_rest) {
         *y += a * x;
     }
 }

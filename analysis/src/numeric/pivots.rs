@@ -384,6 +384,11 @@ impl<const W: usize> Lanes<W> {
 }
 
 /// By how much the most wrong unknown is so, and which one it is.
+#[expect(
+    clippy::inline_always,
+    reason = "the number of groups is a constant where it is called"
+)]
+#[inline(always)]
 fn worst<const W: usize>(groups: &mut [Lanes<W>]) -> (f64, usize) {
     let mut most = [0.0; W];
     for lanes in groups.iter_mut() {
