@@ -52,6 +52,11 @@ runner:
 .PHONY: clients
 clients: python node schemathesis-program
 
+# Read by the clients of tests/clients when a person runs them.
+.PHONY: client-files
+client-files: ## An actor and a take for the clients of tests/clients, in ./client-files
+	cargo run --quiet --package frontalis-tests --bin client-files -- client-files
+
 .PHONY: python
 python:
 	@$(MAKE) --no-print-directory .venv/ready \
@@ -114,6 +119,16 @@ deny-if-installed:
 	@if cargo deny --version >/dev/null 2>&1; then .ci/deny; \
 	else echo "left out: supply chain (make deny): cargo-deny is not installed"; fi
 
+# Longer than the tests: each target for FUZZ_SECONDS, on a nightly toolchain; what breaks is kept in fuzz/artifacts.
+FUZZ_SECONDS ?= 60
+FUZZ_TARGETS := marker_frames
+.PHONY: fuzz
+fuzz: ## Every fuzz target for FUZZ_SECONDS (a minute); needs the nightly toolchain
+	@cargo +nightly fuzz --version >/dev/null 2>&1 || cargo +nightly install --locked cargo-fuzz
+	@for target in $(FUZZ_TARGETS); do \
+	  cargo +nightly fuzz run $$target -- -max_total_time=$(FUZZ_SECONDS) -rss_limit_mb=2048 || exit 1; \
+	done
+
 .PHONY: bench
 bench: ## CPU time of the solve, the stage and the alignment, one thread
 	cargo bench --workspace --bench "*"
@@ -121,6 +136,20 @@ bench: ## CPU time of the solve, the stage and the alignment, one thread
 .PHONY: bench-load
 bench-load: ## 64 sessions at 120 Hz with a subscriber each, 30 s: losses and latency
 	cargo run --release --package frontalis-tests --bin load
+
+.PHONY: accuracy
+accuracy: scipy ## Errors beside those of other methods where the truth is known: writes docs/accuracy.md and its pictures
+	cargo run --release --package frontalis-tests --bin accuracy
+
+.PHONY: scipy
+scipy:
+	@$(MAKE) --no-print-directory .venv-accuracy/ready \
+	  || echo "left out: scipy: python3 with venv and pip is needed to make .venv-accuracy"
+
+.venv-accuracy/ready: tests/accuracy/requirements.txt
+	@python3 -m venv .venv-accuracy
+	@.venv-accuracy/bin/pip install --quiet --disable-pip-version-check --requirement $<
+	@touch $@
 
 .PHONY: churn
 churn: ## Sessions made, used and ended for CHURN_SECONDS (ten minutes): memory, files and disk stay flat

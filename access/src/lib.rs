@@ -1,4 +1,5 @@
-//! Who may do what: roles, session scopes, tokens, and the file they are kept in (CONTRACTS S-3 to S-5).
+//! Who may do what: roles, session scopes, tokens, and the file they are kept in (CONTRACTS S-3 to S-5); and the form of
+//! the log of who did what (S-12).
 //!
 //! Pure: no network, no async, no clock and no file; bytes and the time come in as arguments.
 //! The only thing taken from the system is randomness, for new tokens.
@@ -18,6 +19,7 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 
+mod audit_chain;
 mod certificate;
 mod issuer;
 mod principal;
@@ -27,13 +29,15 @@ mod token;
 mod token_file;
 mod unix_time;
 
+pub use audit_chain::{AuditLine, ChainEnd, ChainReport, verify_chain};
 pub use certificate::{CertificateRule, CertificateSubject};
-pub use issuer::{Algorithm, Issuer};
+pub use issuer::{Algorithm, Issuer, KeyError};
 pub use principal::{Principal, Refused};
 pub use role::{Role, UnknownRole};
 pub use scope::{Scope, ScopeError};
 pub use token::{MAX_PRESENTED_BYTES, NoEntropy, Token, TokenHash};
 pub use token_file::{
-    CreateError, MAX_TOKENS, NewToken, NoSuchToken, TokenFile, TokenFileError, TokenRecord,
+    CreateError, MAX_TOKENS, NewToken, NoSuchToken, TokenFile, TokenFileChange, TokenFileError,
+    TokenRecord,
 };
 pub use unix_time::{NotATime, UnixTime};

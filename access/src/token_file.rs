@@ -36,8 +36,10 @@ use crate::{
     token::random,
 };
 
+mod change;
 mod text;
 
+pub use change::TokenFileChange;
 pub use text::TokenFileError;
 
 /// Most tokens of a file; each is compared with what a caller presents.

@@ -14,7 +14,7 @@ use crate::{
         alignment::{Alignment, AlignmentError},
         contraction::{ContractionSolver, RegionOutcome},
         neutral,
-        neutral_watch::NeutralDoubt,
+        neutral_watch::{NeutralDoubt, NeutralEvidence},
         range::MuscleRange,
     },
     space::{LengthUnit, PerformancePoint},
@@ -42,7 +42,11 @@ pub enum Progress {
     Aligned,
     /// One sample was appended.
     Solved,
-    /// One sample was appended; the new neutral face that was asked for could not be aligned, and the old one holds on.
+    /// The face is at another scale than before, so the unit has changed: no sample will come of this frame.
+    /// [`MarkerAnalyzer::scale_jump`] says by how much.
+    ScaleJump,
+    /// The new neutral face that was asked for could not be aligned, and the old one holds on. One sample was appended, unless
+    /// the face is at another scale.
     /// [`MarkerAnalyzer::recenter_error`] says why.
     RecenterFailed,
 }
@@ -98,6 +102,10 @@ struct Solving {
     alignment: Alignment,
     solver: ContractionSolver,
     held_frames: u32,
+    /// Number of the last frame.
+    last_index: Option<u64>,
+    /// `None` of an alignment that was found in an earlier run.
+    neutral: Option<NeutralEvidence>,
     /// The frames of the neutral face that was asked for while curves flow.
     recentering: Option<Vec<MarkerFrame>>,
 }
@@ -166,13 +174,22 @@ impl MarkerAnalyzer {
                 self.try_align(samples)
             }
             Stage::Solving(solving) => {
-                samples.push(solving.solve(&frame));
-                Ok(match &mut solving.recentering {
+                let sample = solving.solve(&frame);
+                let is_at_scale = solving.solver.scale_jump().is_none();
+                if is_at_scale {
+                    samples.push(sample);
+                }
+                // A new neutral face may be asked for just because the unit has changed.
+                let progress = match &mut solving.recentering {
                     None => Progress::Solved,
                     Some(frames) => {
                         frames.push(frame);
                         self.try_recenter()
                     }
+                };
+                Ok(match progress {
+                    Progress::Solved if !is_at_scale => Progress::ScaleJump,
+                    progress => progress,
                 })
             }
         }
@@ -189,8 +206,8 @@ impl MarkerAnalyzer {
         };
         let alignment = find_alignment(&self.actor, &usable, self.unit);
         let kept = std::mem::take(frames);
-        let alignment = match alignment {
-            Ok(alignment) => alignment,
+        let (alignment, neutral) = match alignment {
+            Ok(found) => found,
             Err(error) => {
                 if self.settings.align_on_request {
                     self.stage = Stage::Waiting;
@@ -199,6 +216,7 @@ impl MarkerAnalyzer {
             }
         };
         let mut solving = Solving::new(&self.actor, &self.settings, self.rate_hz, alignment);
+        solving.neutral = Some(neutral);
         samples.extend(kept.iter().map(|frame| solving.solve(frame)));
         self.stage = Stage::Solving(Box::new(solving));
         Ok(Progress::Aligned)
@@ -217,8 +235,8 @@ impl MarkerAnalyzer {
         let alignment = find_alignment(&self.actor, &usable, self.unit);
         solving.recentering = None;
         match alignment {
-            Ok(alignment) => {
-                self.realign(alignment);
+            Ok((alignment, neutral)) => {
+                self.realign(alignment, neutral);
                 Progress::Aligned
             }
             Err(error) => {
@@ -229,11 +247,13 @@ impl MarkerAnalyzer {
     }
 
     /// Goes on from where the curves are, on another alignment.
-    fn realign(&mut self, alignment: Alignment) {
+    fn realign(&mut self, alignment: Alignment, neutral: NeutralEvidence) {
         let mut next = Solving::new(&self.actor, &self.settings, self.rate_hz, alignment);
+        next.neutral = Some(neutral);
         if let Stage::Solving(before) = &self.stage {
             next.solver.continue_realigned(&before.solver);
             next.held_frames = before.held_frames;
+            next.last_index = before.last_index;
         }
         self.stage = Stage::Solving(Box::new(next));
         self.recenter_error = None;
@@ -266,10 +286,18 @@ impl MarkerAnalyzer {
             let found = quietest.len();
             return Err(QuietestError::TooFew { found, needed });
         }
-        let alignment =
+        let (alignment, neutral) =
             find_alignment(&self.actor, &quietest, self.unit).map_err(QuietestError::Alignment)?;
-        self.realign(alignment);
+        self.realign(alignment, neutral);
         Ok(())
+    }
+
+    /// How many times the size of the face the last frame had, when that is another unit's doing.
+    pub fn scale_jump(&self) -> Option<f64> {
+        match &self.stage {
+            Stage::Solving(solving) => solving.solver.scale_jump(),
+            _ => None,
+        }
     }
 
     /// Why the new neutral face that was asked for last could not be aligned.
@@ -286,6 +314,8 @@ impl MarkerAnalyzer {
             let mut next = Solving::new(&actor, &settings, self.rate_hz, alignment);
             next.solver.continue_from(&solving.solver);
             next.held_frames = solving.held_frames;
+            next.last_index = solving.last_index;
+            next.neutral = solving.neutral;
             next.recentering = solving.recentering.take();
             **solving = next;
         }
@@ -323,7 +353,7 @@ impl MarkerAnalyzer {
     /// Whether the face that was taken as neutral is not; `None` while nothing says so.
     pub fn neutral_doubt(&self) -> Option<NeutralDoubt> {
         match &self.stage {
-            Stage::Solving(solving) => solving.solver.neutral_doubt(),
+            Stage::Solving(solving) => solving.doubt(),
             _ => None,
         }
     }
@@ -353,10 +383,11 @@ fn find_alignment(
     actor: &Actor,
     frames: &[&[Option<PerformancePoint>]],
     unit: LengthUnit,
-) -> Result<Alignment, AlignmentError> {
+) -> Result<(Alignment, NeutralEvidence), AlignmentError> {
     let mut mean = neutral::average(frames);
     mean.positions.resize(actor.markers().len(), None);
-    Alignment::find(actor, &mean, unit)
+    let alignment = Alignment::find(actor, &mean, unit)?;
+    Ok((alignment, NeutralEvidence::of(actor, frames, &mean)))
 }
 
 fn shows_a_face(frame: &MarkerFrame) -> bool {
@@ -369,13 +400,28 @@ impl Solving {
             solver: ContractionSolver::new(actor, &alignment, settings, rate_hz),
             alignment,
             held_frames: 0,
+            last_index: None,
+            neutral: None,
             recentering: None,
         }
     }
 
+    /// What says that the neutral frames were not neutral.
+    fn doubt(&self) -> Option<NeutralDoubt> {
+        let neutral = self.neutral?;
+        let quieter = || self.solver.quieter_frames_seen(neutral.residual_cm);
+        neutral.contracted.or_else(quieter)
+    }
+
     fn solve(&mut self, frame: &MarkerFrame) -> CurveSample {
         let solver = &mut self.solver;
+        if let Some(last) = self.last_index {
+            let missing = frame.index.0.saturating_sub(last.saturating_add(1));
+            solver.pass(missing);
+        }
+        self.last_index = Some(frame.index.0);
         solver.solve(&frame.positions);
+        solver.assess(&frame.positions);
         let regions = solver.regions().map(|(region, outcome)| RegionReport {
             region,
             marker_error_cm: outcome.marker_error_cm,

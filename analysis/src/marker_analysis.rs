@@ -2,12 +2,18 @@
 
 pub mod alignment;
 pub mod contraction;
+mod diagnosis;
+mod estimate;
+mod estimated;
 mod evidence;
 mod head_motion;
 mod marker_model;
 pub mod neutral;
 pub mod neutral_watch;
+mod noise;
 pub mod objective;
+mod plain_uncertainty;
 pub mod range;
+mod reproduction;
 pub mod settings;
 mod still_problem;

@@ -1,4 +1,4 @@
-//! Markers in, contractions out, where the contractions that made the markers are known.
+//! Markers in, contractions out by the plain objective, where the contractions that made the markers are known.
 #![expect(clippy::unwrap_used, reason = "the failure of a test is its report")]
 
 use std::sync::Arc;
@@ -65,7 +65,7 @@ fn settings(region_mode: RegionMode, stabilize_head: bool) -> MarkerSettings {
     MarkerSettings {
         region_mode,
         stabilize_head,
-        ..MarkerSettings::default()
+        ..MarkerSettings::plain()
     }
 }
 
@@ -95,7 +95,7 @@ fn recovers_the_contractions_under_a_moving_head() {
         ..Stage::STILL
     };
     let performance = Performance::of(&actor(), stage);
-    let samples = solve(&performance, MarkerSettings::default());
+    let samples = solve(&performance, MarkerSettings::plain());
     let (rms, largest) = errors(&samples, &performance.truth);
     println!("noise-free, moving head: RMS {rms:.1e}, largest {largest:.1e}");
     assert!(largest <= 1e-6, "{largest:e}");
@@ -119,7 +119,7 @@ fn noise_gives_the_errors_that_the_method_promises() {
                 ..stage
             },
         );
-        let (joint_rms, _) = errors(&solve(&moving, MarkerSettings::default()), &moving.truth);
+        let (joint_rms, _) = errors(&solve(&moving, MarkerSettings::plain()), &moving.truth);
         println!(
             "noise {:.1} mm: RMS {fixed_rms:.4} (still head, fixed), {joint_rms:.4} (moving head, joint)",
             noise_cm * 10.0
@@ -135,7 +135,7 @@ fn the_head_pose_is_the_motion_that_was_made() {
         ..Stage::STILL
     };
     let performance = Performance::of(&actor(), stage);
-    let samples = solve(&performance, MarkerSettings::default());
+    let samples = solve(&performance, MarkerSettings::plain());
     let time = 200.0 / stage.rate_hz;
     let axis = nalgebra::Vector3::new((0.9 * time).sin(), (0.7 * time).sin(), (1.1 * time).sin());
     let made = nalgebra::UnitQuaternion::from_scaled_axis(0.15 * axis);
@@ -155,7 +155,7 @@ fn hidden_markers_leave_the_sums_and_the_rest_still_tells() {
     for frame in performance.frames.iter_mut().skip(60) {
         frame.positions[cheek] = None;
     }
-    let samples = solve(&performance, MarkerSettings::default());
+    let samples = solve(&performance, MarkerSettings::plain());
     let (_, largest) = errors(&samples, &performance.truth);
     assert!(largest <= 1e-6, "{largest:e}");
     assert_eq!(samples[100].quality, Quality::Partial);
@@ -188,7 +188,7 @@ fn a_muscle_whose_markers_are_hidden_is_named_and_decays() {
     for frame in &mut performance.frames[closed..] {
         frame.positions[lid] = None;
     }
-    let samples = solve(&performance, MarkerSettings::default());
+    let samples = solve(&performance, MarkerSettings::plain());
     assert_eq!(samples[closed].unobserved, [muscle]);
     let height = |k: usize| samples[k].activations[muscle];
     let after_a_fifth_of_a_second = height(closed + 11) / height(closed - 1);
@@ -205,7 +205,7 @@ fn a_region_that_shows_too_little_stands_still_and_the_other_goes_on() {
             *position = None;
         }
     }
-    let samples = solve(&performance, MarkerSettings::default());
+    let samples = solve(&performance, MarkerSettings::plain());
     let held = &samples[250];
     assert_eq!(held.quality, Quality::Partial);
     assert_eq!(held.regions[0].held_reason, Some(HeldReason::TooFewMarkers));
@@ -224,7 +224,7 @@ fn a_frame_without_markers_is_held_and_counted() {
     for frame in &mut performance.frames[100..110] {
         frame.positions.fill(None);
     }
-    let samples = solve(&performance, MarkerSettings::default());
+    let samples = solve(&performance, MarkerSettings::plain());
     assert_eq!(samples[105].quality, Quality::Held);
     assert_eq!(samples[105].held_frames, 6);
     assert_eq!(samples[105].activations, samples[99].activations);
@@ -249,7 +249,7 @@ fn a14_markers_on_a_point_a_line_or_a_plane_or_mirrored_are_held() {
             *position = shape(*position);
         }
     }
-    let samples = solve(&performance, MarkerSettings::default());
+    let samples = solve(&performance, MarkerSettings::plain());
     for sample in &samples[100..104] {
         assert_eq!(sample.quality, Quality::Held);
         assert_eq!(
@@ -270,12 +270,12 @@ fn exaggeration_is_found_up_to_two_when_it_is_allowed() {
     let mut strong = performance.frames[20].clone();
     strong.index = FrameIndex(10_000);
     // The reference frame is neutral; its similarity is undone to add the displacement in model space.
-    let mut plain = analyzer(&actor, MarkerSettings::default());
+    let mut plain = analyzer(&actor, MarkerSettings::plain());
     let mut exaggerated = analyzer(
         &actor,
         MarkerSettings {
             allow_exaggeration: true,
-            ..MarkerSettings::default()
+            ..MarkerSettings::plain()
         },
     );
     let mut samples = Vec::new();
@@ -304,7 +304,7 @@ fn alignment_waits_for_a_request_where_it_was_asked_to() {
         &actor(),
         MarkerSettings {
             align_on_request: true,
-            ..MarkerSettings::default()
+            ..MarkerSettings::plain()
         },
     );
     let mut samples = Vec::new();
@@ -330,7 +330,7 @@ fn the_same_frames_give_the_same_bits() {
         ..Stage::STILL
     };
     let performance = Performance::of(&actor(), stage);
-    let [first, second] = [(); 2].map(|()| solve(&performance, MarkerSettings::default()));
+    let [first, second] = [(); 2].map(|()| solve(&performance, MarkerSettings::plain()));
     assert_eq!(first, second);
 }
 
@@ -339,13 +339,13 @@ fn an_analyzer_that_need_not_wait_any_more_aligns_on_the_next_frames() {
     let performance = Performance::of(&actor(), Stage::STILL);
     let waiting = MarkerSettings {
         align_on_request: true,
-        ..MarkerSettings::default()
+        ..MarkerSettings::plain()
     };
     let mut analyzer = analyzer(&actor(), waiting);
     let mut samples = Vec::new();
     let first = analyzer.push(performance.frames[0].clone(), &mut samples);
     assert_eq!(first, Ok(Progress::Waiting));
-    analyzer.update(actor(), MarkerSettings::default());
+    analyzer.update(actor(), MarkerSettings::plain());
     for frame in &performance.frames[1..16] {
         analyzer.push(frame.clone(), &mut samples).unwrap();
     }

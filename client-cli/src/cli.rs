@@ -5,6 +5,7 @@ use clap::{Parser, Subcommand};
 use crate::commands::{
     ConnectionArgs,
     actor::ActorCommand,
+    audit::AuditCommand,
     completions::CompletionsArgs,
     demo::DemoArgs,
     login::{LoginArgs, LogoutArgs},
@@ -70,6 +71,9 @@ pub enum Command {
     /// Make, list and take back the tokens of a server, on its own machine
     #[command(subcommand)]
     Token(TokenCommand),
+    /// Check a server's audit log, on its own machine or a copy
+    #[command(subcommand)]
+    Audit(AuditCommand),
     /// Print the completion script of a shell
     Completions(CompletionsArgs),
 }
@@ -102,12 +106,17 @@ mod tests {
             "frontalis session create --actor anna --align-on-request --stale-after-millis 200 --publisher-timeout-secs 5",
             "frontalis session update take-1 --exaggeration=false --actor-revision 2",
             "frontalis session recenter take-1",
+            "frontalis session recenter take-1 --quietest",
+            "frontalis session create --actor anna --plain --bounds jaw=0..0.8 --exclusive kiss,jaw",
+            "frontalis session update take-1 --plain=false --smoothing 0.2 --sparsity 0.7 --robust --symmetry 0.1 --bounds none",
             "frontalis session end take-1",
             "frontalis --server http://10.0.0.5:7400 publish take.trc --session take-1 --fast",
             "frontalis watch take-1",
             "frontalis watch take-1 --every-frame --from-start --until-end --csv",
             "frontalis watch take-1 --every-frame --frames 100 --json",
             "frontalis solve take.trc --actor face.zip --regions split --renumber --csv",
+            "frontalis solve take.trc --actor face.zip --plain --csv --standard-errors",
+            "frontalis watch take-1 --every-frame --csv --standard-errors",
             "frontalis simulate --actor reference --session take-1 --rate 60 --seconds 10 --cameras 5 --pixel-noise 0.3 --misses 0.03 --seed 7 --truth truth.csv",
             "frontalis demo --seconds 10",
             "frontalis login --server https://stage:7400 --ca-cert ca.pem",
@@ -118,6 +127,7 @@ mod tests {
             "frontalis token create --token-file tokens.toml --name Anna --role operator --images",
             "frontalis token list --token-file tokens.toml --json",
             "frontalis token revoke t-5f0c2a91 --token-file tokens.toml --yes",
+            "frontalis audit verify /var/lib/frontalis/audit.log --json",
             "frontalis completions bash",
         ] {
             if let Err(error) = parse(line) {
@@ -138,6 +148,8 @@ mod tests {
             "frontalis session update take-1 --publisher-timeout-secs 3601",
             "frontalis session create --actor anna --neutral-frames 0",
             "frontalis session create --actor anna --neutral-frames 257",
+            "frontalis session create --actor anna --smoothing 2",
+            "frontalis session update take-1 --bounds jaw=1..0",
             "frontalis simulate --session s --rate 0",
             "frontalis simulate --session s --rate nan",
             "frontalis simulate --session s --misses 1.5",

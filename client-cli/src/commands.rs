@@ -1,6 +1,7 @@
 //! One module a command, and what they share.
 
 pub mod actor;
+pub mod audit;
 pub mod completions;
 mod context;
 pub mod demo;
@@ -10,6 +11,7 @@ pub mod login;
 mod marker_check;
 mod names;
 mod numbers;
+mod objective;
 pub mod publish;
 mod publish_summary;
 pub mod server;
@@ -17,6 +19,7 @@ pub mod session;
 mod settings;
 pub mod simulate;
 pub mod solve;
+mod solve_report;
 mod stage_run;
 pub mod token;
 pub mod watch;
@@ -42,6 +45,7 @@ pub async fn run(context: &Context, command: Command) -> anyhow::Result<ExitCode
         Command::Login(args) => login::login(context, args).await,
         Command::Logout(args) => login::logout(context, &args).await,
         Command::Token(command) => token::run(context, command).await,
+        Command::Audit(command) => audit::run(context, &command),
         Command::Server(args) => server::run(context, args).await,
         Command::Completions(args) => completions::run(&args),
     }

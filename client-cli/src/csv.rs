@@ -1,4 +1,5 @@
-//! Curves as a table: `frame,capture_time_nanos,quality`, then one column a control.
+//! Curves as a table: `frame,capture_time_nanos,quality`, then one column a control, then, where they are wanted, one
+//! column with the standard error of each control.
 //!
 //! `frontalis watch` and `frontalis solve` write through this one file, so that a server and a file give the same bytes.
 //! Values are `f32`, as on the wire, in the shortest form that reads back to the same bits.
@@ -20,7 +21,33 @@ pub struct CsvRow {
     pub quality: &'static str,
     /// One value a control, in the header's order.
     pub activations: Vec<f32>,
+    /// One sigma of each, likewise; empty when the server was not asked.
+    pub standard_errors: Vec<f32>,
 }
+
+/// What the table holds of each control.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Columns {
+    /// Its activation.
+    #[default]
+    Activations,
+    /// Its activation, and behind all of them its standard error.
+    WithStandardErrors,
+}
+
+impl Columns {
+    /// With or without standard errors, as a person asked.
+    pub fn wanted(standard_errors: bool) -> Self {
+        if standard_errors {
+            Self::WithStandardErrors
+        } else {
+            Self::Activations
+        }
+    }
+}
+
+/// Ends the heading of a column of standard errors.
+const STANDARD_ERROR: &str = "_standard_error";
 
 impl From<&curve::CurveSample> for CsvRow {
     fn from(sample: &curve::CurveSample) -> Self {
@@ -32,7 +59,8 @@ impl From<&curve::CurveSample> for CsvRow {
                 curve::Quality::Partial => "partial",
                 curve::Quality::Held => "held",
             },
-            activations: sample.activations.iter().map(|it| narrow(*it)).collect(),
+            activations: narrow(&sample.activations),
+            standard_errors: narrow(&sample.standard_errors),
         }
     }
 }
@@ -41,8 +69,8 @@ impl From<&curve::CurveSample> for CsvRow {
     clippy::cast_possible_truncation,
     reason = "the wire carries f32; the same rounding as the server's"
 )]
-fn narrow(activation: f64) -> f32 {
-    activation as f32
+fn narrow(values: &[f64]) -> Vec<f32> {
+    values.iter().map(|it| *it as f32).collect()
 }
 
 impl From<&proto::CurveSample> for CsvRow {
@@ -52,6 +80,7 @@ impl From<&proto::CurveSample> for CsvRow {
             capture_time_nanos: sample.capture_time_nanos,
             quality: quality_name(sample.quality()),
             activations: sample.activations.clone(),
+            standard_errors: sample.standard_errors.clone(),
         }
     }
 }
@@ -70,6 +99,7 @@ pub fn quality_name(quality: proto::Quality) -> &'static str {
 #[derive(Debug)]
 pub struct CsvWriter<W> {
     out: W,
+    columns: Columns,
 }
 
 impl<W: Write> CsvWriter<W> {
@@ -78,13 +108,22 @@ impl<W: Write> CsvWriter<W> {
     /// # Errors
     ///
     /// When `out` cannot be written.
-    pub fn new<'a>(mut out: W, controls: impl IntoIterator<Item = &'a str>) -> io::Result<Self> {
+    pub fn new<'a>(
+        mut out: W,
+        controls: impl IntoIterator<Item = &'a str> + Clone,
+        columns: Columns,
+    ) -> io::Result<Self> {
         out.write_all(b"frame,capture_time_nanos,quality")?;
-        for name in controls {
+        for name in controls.clone() {
             write!(out, ",{}", field(name))?;
         }
+        if columns == Columns::WithStandardErrors {
+            for name in controls {
+                write!(out, ",{}", field(&format!("{name}{STANDARD_ERROR}")))?;
+            }
+        }
         out.write_all(b"\n")?;
-        Ok(Self { out })
+        Ok(Self { out, columns })
     }
 
     /// Writes one line.
@@ -98,7 +137,11 @@ impl<W: Write> CsvWriter<W> {
             "{},{},{}",
             row.frame, row.capture_time_nanos, row.quality
         )?;
-        for value in &row.activations {
+        let errors: &[f32] = match self.columns {
+            Columns::Activations => &[],
+            Columns::WithStandardErrors => &row.standard_errors,
+        };
+        for value in row.activations.iter().chain(errors) {
             write!(self.out, ",{value}")?;
         }
         self.out.write_all(b"\n")
@@ -134,9 +177,9 @@ mod tests {
 
     use super::*;
 
-    fn table(rows: &[CsvRow], controls: &[&str]) -> String {
+    fn table(rows: &[CsvRow], controls: &[&str], columns: Columns) -> String {
         let mut bytes = Vec::new();
-        let mut writer = CsvWriter::new(&mut bytes, controls.iter().copied()).unwrap();
+        let mut writer = CsvWriter::new(&mut bytes, controls.iter().copied(), columns).unwrap();
         for row in rows {
             writer.write(row).unwrap();
         }
@@ -150,10 +193,18 @@ mod tests {
             capture_time_nanos: 116_666_667,
             quality: "partial",
             activations: vec![0.0, 0.25, 1.0],
+            standard_errors: vec![0.5, 0.0, 0.125],
         };
+        let controls = ["frontalis_left", "jaw", "kiss"];
         assert_eq!(
-            table(&[row], &["frontalis_left", "jaw", "kiss"]),
+            table(std::slice::from_ref(&row), &controls, Columns::Activations),
             "frame,capture_time_nanos,quality,frontalis_left,jaw,kiss\n7,116666667,partial,0,0.25,1\n"
+        );
+        assert_eq!(
+            table(&[row], &controls[..], Columns::WithStandardErrors),
+            "frame,capture_time_nanos,quality,frontalis_left,jaw,kiss,\
+             frontalis_left_standard_error,jaw_standard_error,kiss_standard_error\n\
+             7,116666667,partial,0,0.25,1,0.5,0,0.125\n"
         );
     }
 
@@ -174,8 +225,8 @@ mod tests {
     proptest! {
         #[test]
         fn every_value_reads_back_to_the_same_bits(value in any::<f32>().prop_filter("finite", |it| it.is_finite())) {
-            let row = CsvRow { frame: 1, capture_time_nanos: 0, quality: "solved", activations: vec![value] };
-            let text = table(&[row], &["x"]);
+            let row = CsvRow { frame: 1, capture_time_nanos: 0, quality: "solved", activations: vec![value], standard_errors: vec![] };
+            let text = table(&[row], &["x"], Columns::Activations);
             let last = text.trim_end().rsplit(',').next().unwrap();
             prop_assert_eq!(last.parse::<f32>().unwrap().to_bits(), value.to_bits());
         }

@@ -117,6 +117,9 @@ pub fn advice_on(reason: &str) -> Option<&'static str> {
         "NEUTRAL_INCOMPLETE" => {
             "let the actor hold a neutral face with all markers seen, then `frontalis session recenter`"
         }
+        "QUIETEST_FRAMES" | "NOT_ALIGNED" => {
+            "publish more frames, some of them with a relaxed face; or recenter on the next frames, without --quietest"
+        }
         "DEGENERATE_POSE" => "the markers lie on a line or in one place: check the labelling",
         "UNKNOWN_MARKERS" => {
             "no marker name is one of the actor's: `frontalis actor show ID` lists them"

@@ -13,7 +13,10 @@ use frontalis_analysis::{
         marker::{FrameIndex, MarkerFrame},
     },
     format::trc::{TrcFrame, TrcTake},
-    marker_analysis::alignment::AlignmentError,
+    marker_analysis::{
+        alignment::AlignmentError, neutral_watch::NeutralDoubt, objective::ObjectiveError,
+        range::MuscleRange,
+    },
     space::PerformancePoint,
 };
 
@@ -35,6 +38,10 @@ pub struct Solved {
     pub unknown_markers: Vec<String>,
     /// Markers of the actor that the alignment bound to the mesh; `None` before it.
     pub bound_markers: Option<usize>,
+    /// What each muscle went through, and what that says of its shape; empty before the alignment.
+    pub ranges: Vec<MuscleRange>,
+    /// Why the face that was taken as neutral probably was not.
+    pub neutral_doubt: Option<NeutralDoubt>,
 }
 
 impl Solved {
@@ -59,6 +66,9 @@ pub enum SolveError {
         /// Markers in the take.
         n_markers: usize,
     },
+    /// The settings ask for what cannot be, or name a muscle that the actor does not have.
+    #[error("these settings cannot be used for the actor")]
+    Objective(#[from] ObjectiveError),
     /// The neutral frames do not fit the actor.
     #[error("the neutral face could not be aligned, frame {frame}")]
     Alignment {
@@ -75,6 +85,7 @@ impl SolveError {
     pub fn advice(&self) -> Option<&'static str> {
         match self {
             Self::UnknownMarkers { .. } => advice_on("UNKNOWN_MARKERS"),
+            Self::Objective(_) => None,
             Self::Alignment { source, .. } => match source {
                 AlignmentError::UnitsSuspect { .. } => advice_on("UNITS_SUSPECT"),
                 AlignmentError::Mirrored => advice_on("MIRRORED"),
@@ -91,13 +102,14 @@ impl SolveError {
 ///
 /// # Errors
 ///
-/// When the marker names do not fit the actor, or the neutral frames cannot be aligned.
+/// When the settings or the marker names do not fit the actor, or the neutral frames cannot be aligned.
 pub fn solve_take(
     take: &TrcTake,
     actor: &Arc<Actor>,
     settings: MarkerSettings,
     mut on_frame: impl FnMut(),
 ) -> Result<Solved, SolveError> {
+    settings.objective.check(actor.muscle_set())?;
     let places = marker_places(take, actor)?;
     let mut analyzer = MarkerAnalyzer::new(Arc::clone(actor), settings, take.unit, take.rate_hz);
     let mut solved = Solved::default();
@@ -117,9 +129,15 @@ pub fn solve_take(
                         frame: frame.number,
                         source,
                     })?;
+                if progress == Progress::ScaleJump {
+                    *solved.rejected.entry("SCALE_JUMP").or_default() += 1;
+                }
                 solved.unaligned_frames = match progress {
                     Progress::Waiting | Progress::Collecting { .. } => solved.unaligned_frames + 1,
-                    Progress::Aligned | Progress::Solved => 0,
+                    Progress::Aligned
+                    | Progress::Solved
+                    | Progress::ScaleJump
+                    | Progress::RecenterFailed => 0,
                 };
             }
             Err(reason) => *solved.rejected.entry(reason).or_default() += 1,
@@ -129,6 +147,8 @@ pub fn solve_take(
     solved.bound_markers = analyzer
         .alignment()
         .map(|it| it.bindings.iter().flatten().count());
+    solved.ranges = analyzer.ranges();
+    solved.neutral_doubt = analyzer.neutral_doubt();
     Ok(solved)
 }
 
@@ -234,7 +254,8 @@ mod tests {
     }
 
     fn solve(actor: &Arc<Actor>, take: &TrcTake) -> Solved {
-        solve_take(take, actor, MarkerSettings::default(), || ()).unwrap()
+        // These tests are about frames, not about terms that add to what a frame says.
+        solve_take(take, actor, MarkerSettings::plain(), || ()).unwrap()
     }
 
     #[test]

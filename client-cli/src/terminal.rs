@@ -5,6 +5,7 @@ pub mod plain;
 pub mod progress;
 pub mod screen;
 pub mod tables;
+pub mod trust;
 
 use std::io::{self, IsTerminal as _, Write as _};
 

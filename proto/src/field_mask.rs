@@ -12,7 +12,7 @@ pub struct FieldMask {
 
 impl Serialize for FieldMask {
     fn serialize<S: Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
-        let camel: Vec<_> = self.paths.iter().map(|it| camel_case(it)).collect();
+        let camel: Vec<_> = self.paths.iter().map(|it| json_name(it)).collect();
         serializer.serialize_str(&camel.join(","))
     }
 }
@@ -30,7 +30,8 @@ impl<'de> Deserialize<'de> for FieldMask {
     }
 }
 
-fn camel_case(path: &str) -> String {
+/// A field's name in the JSON mapping, or a path of such names: `start.rate_hz` is `start.rateHz`.
+pub fn json_name(path: &str) -> String {
     let mut camel = String::with_capacity(path.len());
     let mut after_underscore = false;
     for letter in path.chars() {

@@ -1,4 +1,4 @@
-//! Wire types of `frontalis.v1`, and nothing else.
+//! Wire types of `frontalis.v1`, with the words in which people read some of them, and nothing else.
 //!
 //! Every message is also `serde`, in the protobuf JSON mapping: camel case, enums by name, 64-bit numbers as strings.
 //!
@@ -8,8 +8,9 @@
 
 mod field_mask;
 mod timestamp;
+mod words;
 
-pub use field_mask::FieldMask;
+pub use field_mask::{FieldMask, json_name};
 pub use timestamp::Timestamp;
 
 /// Version 1 of the protocol.

@@ -40,6 +40,8 @@ fn generated_code_is_current() {
         .build(&[".frontalis.v1"])
         .unwrap();
     std::fs::write(fresh.path().join("frontalis.v1.bin"), binary).unwrap();
+    let mut config = tonic_prost_build::Config::new();
+    config.enable_type_names();
     tonic_prost_build::configure()
         .emit_rerun_if_changed(false)
         .compile_well_known_types(true)
@@ -47,7 +49,7 @@ fn generated_code_is_current() {
         .extern_path(OWN[0].0, OWN[0].1)
         .extern_path(OWN[1].0, OWN[1].1)
         .out_dir(fresh.path())
-        .compile_fds(descriptors)
+        .compile_fds_with_config(descriptors, config)
         .unwrap();
     for name in [
         "frontalis.v1.rs",

@@ -183,7 +183,8 @@ pub async fn run(
     let reload = Reload::default();
     if let Some(tls) = &tls {
         let (reloads, end) = (reload.listen(), phases.closing.clone());
-        upkeep.spawn(tls.clone().follow(reloads, metrics.clone(), end));
+        let follow = (tls.clone()).follow(reloads, metrics.clone(), audit.clone(), end);
+        upkeep.spawn(follow);
     }
     let (reloads, end) = (reload.listen(), phases.closing.clone());
     upkeep.spawn(access::follow(access, reloads, end));

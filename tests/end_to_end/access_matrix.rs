@@ -1,64 +1,33 @@
-//! Every method and every HTTP operation, for every role, on its own object, a foreign one and a missing one
-//! (CONTRACTS S-4, S-5, goal G13).
+//! Every method and every HTTP operation, for every role by every proof, on its own object, a foreign one and a missing
+//! one (CONTRACTS S-4, S-5, goal G13).
 //!
 //! What is asked comes from the descriptors and from `/openapi.json`; what is expected is S-4, written down again in
-//! [`rules`]. A method or an operation without a rule fails the test.
+//! [`rules`]. A method or an operation without a rule fails the test, and so does a call that may be made and comes to
+//! another end than its rule says.
 
+mod bytes;
+mod callers;
 mod grpc;
 mod http;
+mod messages;
 mod rules;
+mod stage;
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
-use frontalis_access::{Role, Token};
-use harness::TestServer;
+use frontalis_access::Role;
 
+use callers::Caller;
+use messages::{Variant, variants};
 use rules::{Expected, Rule};
+use stage::{OBJECTS, Object, Stage};
 
-/// Who asks.
-const CALLERS: [Option<Role>; 5] = [
-    Some(Role::Operator),
-    Some(Role::Publisher),
-    Some(Role::Renderer),
-    Some(Role::Viewer),
-    None,
-];
-
-/// Whose the object is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-enum Object {
-    Own,
-    Foreign,
-    Missing,
-}
-
-const OBJECTS: [Object; 3] = [Object::Own, Object::Foreign, Object::Missing];
-
-impl Object {
-    /// Id of a session, and of the actor that only it uses. The scope of every token is `own-*`.
-    fn id(self) -> &'static str {
-        match self {
-            Self::Own => "own-1",
-            Self::Foreign => "foreign-1",
-            Self::Missing => "missing-1",
-        }
-    }
-
-    /// Id of a session that shall be made: of one that is there, or of one that stays outside of every other question.
-    fn new_id(self) -> &'static str {
-        match self {
-            Self::Own => "own-1",
-            Self::Foreign => "foreign-1",
-            Self::Missing => "elsewhere",
-        }
-    }
-}
-
-/// What came of one call: `OK`, or the code and the reason.
-#[derive(Clone, Debug, PartialEq, Eq)]
+/// What came of one call.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 struct Outcome {
-    /// gRPC's name of the code, or the number of HTTP.
+    /// `OK` or gRPC's name of the code, or the number of HTTP.
     code: String,
+    /// Empty for a success.
     reason: String,
     /// Everything that a client could compare.
     whole: Vec<u8>,
@@ -66,41 +35,10 @@ struct Outcome {
     names: Vec<String>,
 }
 
-/// A server with two sessions, an actor each, and a token of every role whose scope holds the first alone.
-struct Stage {
-    server: TestServer,
-    tokens: BTreeMap<Role, Token>,
-}
-
-impl Stage {
-    async fn new() -> Self {
-        let mut tokens = BTreeMap::new();
-        let mut server = TestServer::start_guarded(|config| {
-            config.limits.auth_failures_per_minute = 60_000;
-            config.limits.session_creations_per_minute = 60_000;
-        })
-        .await;
-        let package = harness::reference_package();
-        for object in [Object::Own, Object::Foreign] {
-            let id = object.id();
-            server.import(id, &package).await.unwrap();
-            let actor = format!("actors/{id}");
-            server.create_session(id, &actor).await.unwrap();
-        }
-        for role in Role::ALL {
-            let scope = if role == Role::Operator { "*" } else { "own-*" };
-            tokens.insert(role, server.keys().grant(role, scope));
-        }
-        server.keys().save();
-        server.reload();
-        let stage = Self { server, tokens };
-        let operator = &stage.tokens[&Role::Viewer];
-        harness::assert_eventually!(grpc::is_known(&stage.server, operator).await);
-        stage
-    }
-
-    fn token(&self, caller: Option<Role>) -> Option<&Token> {
-        self.tokens.get(&caller?)
+impl Outcome {
+    fn is_success(&self) -> bool {
+        let is_redirect_or_ok = matches!(self.code.as_bytes().first(), Some(b'2' | b'3'));
+        self.reason.is_empty() && (self.code == "OK" || is_redirect_or_ok)
     }
 }
 
@@ -108,35 +46,78 @@ impl Stage {
 async fn every_method_and_every_operation_answers_every_role_as_specified() {
     let stage = Stage::new().await;
     let mut cells = Cells::default();
-    for method in grpc::methods() {
-        let rule = rules::of(&method);
-        for variant in grpc::variants(&method) {
-            let what = format!("{method}{}", variant.suffix());
-            let rule = variant.rule(rule);
-            for caller in CALLERS {
+    let methods = grpc::methods();
+    let operations = http::operations(&stage).await;
+    for caller in &stage.callers {
+        let channel = caller.channel(&stage.server).await;
+        for method in &methods {
+            for variant in variants(method) {
+                let cell = Cell::new(method, method, *variant, caller);
                 for object in OBJECTS {
-                    let token = stage.token(caller);
-                    let outcome = grpc::call(&stage.server, token, &method, variant, object).await;
-                    cells.check(&what, rule, caller, object, outcome);
+                    let call = grpc::Call {
+                        method,
+                        variant: *variant,
+                        id: &stage.id_for(method, object).await,
+                        package: &stage.package,
+                    };
+                    let outcome = call.outcome(channel.clone(), caller).await;
+                    cells.check(&cell, object, outcome);
                 }
             }
         }
-    }
-    stage.server.stop().await;
-    // A new one: the sessions of the first have been ended by now.
-    let stage = Stage::new().await;
-    for operation in http::operations(&stage.server).await {
-        let rule = operation.rule();
-        for caller in CALLERS {
+        for operation in &operations {
+            let name = operation.name();
+            let cell = Cell::new(&name, operation.rule(), operation.variant(), caller);
             for object in OBJECTS {
-                let token = stage.token(caller);
-                let outcome = operation.call(&stage.server, token, object).await;
-                cells.check(&operation.name(), rule, caller, object, outcome);
+                let id = stage.id_for(operation.rule(), object).await;
+                let outcome = operation.call(&stage, caller, &id).await;
+                cells.check(&cell, object, outcome);
             }
         }
     }
-    cells.report();
+    cells.report(stage.callers.len());
     stage.server.stop().await;
+}
+
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn the_server_has_no_service_that_nobody_asked() {
+    let stage = Stage::new().await;
+    let asked: BTreeSet<String> = grpc::methods()
+        .iter()
+        .map(|it| it.split('/').next().unwrap().to_owned())
+        .collect();
+    let operator = stage
+        .callers
+        .iter()
+        .find(|it| it.role == Some(Role::Operator));
+    let served = grpc::services(&stage, operator.unwrap()).await;
+    assert_eq!(served, asked);
+    stage.server.stop().await;
+}
+
+/// What is asked of all three objects.
+struct Cell<'a> {
+    what: String,
+    rule: Rule,
+    caller: &'a Caller,
+}
+
+impl<'a> Cell<'a> {
+    fn new(name: &str, rule: &str, variant: Variant, caller: &'a Caller) -> Self {
+        let rule = rules::of(rule);
+        match variant {
+            Variant::Plain => Self {
+                what: name.to_owned(),
+                rule,
+                caller,
+            },
+            Variant::Takeover => Self {
+                what: format!("{name} (takeover)"),
+                rule: rule.with_takeover(),
+                caller,
+            },
+        }
+    }
 }
 
 /// What was asked so far.
@@ -145,38 +126,32 @@ struct Cells {
     n_asked: usize,
     wrong: Vec<String>,
     /// What the same caller was answered for the foreign object.
-    foreign: BTreeMap<(String, Option<Role>), Outcome>,
+    foreign: BTreeMap<(String, String), Outcome>,
 }
 
 impl Cells {
-    fn check(
-        &mut self,
-        what: &str,
-        rule: Rule,
-        caller: Option<Role>,
-        object: Object,
-        outcome: Outcome,
-    ) {
+    fn check(&mut self, cell: &Cell, object: Object, outcome: Outcome) {
         self.n_asked += 1;
-        let expected = rule.expected(caller, object);
+        let Cell { what, rule, caller } = cell;
+        let (who, role) = (&caller.name, caller.role);
+        let expected = rule.expected(role, object);
         if !expected.is(&outcome) {
             let found = (&outcome.code, &outcome.reason, &outcome.names);
             self.wrong.push(format!(
-                "{what} as {caller:?} on {object:?}: {found:?}, expected {expected:?}"
+                "{what} as {who} on {object:?}: {found:?}, expected {expected:?}"
             ));
         }
-        let key = (what.to_owned(), caller);
+        let key = (what.clone(), who.clone());
         match object {
             Object::Foreign => {
                 self.foreign.insert(key, outcome);
             }
             Object::Missing if expected == Expected::NotFound => {
                 let foreign = self.foreign.get(&key);
-                let is_foreign_hidden =
-                    rule.expected(caller, Object::Foreign) == Expected::NotFound;
+                let is_foreign_hidden = rule.expected(role, Object::Foreign) == Expected::NotFound;
                 if is_foreign_hidden && foreign != Some(&outcome) {
                     self.wrong.push(format!(
-                        "{what} as {caller:?}: a foreign object is told from a missing one: {:?} and {:?}",
+                        "{what} as {who}: a foreign object is told from a missing one: {:?} and {:?}",
                         foreign.map(|it| String::from_utf8_lossy(&it.whole).into_owned()),
                         String::from_utf8_lossy(&outcome.whole)
                     ));
@@ -186,11 +161,13 @@ impl Cells {
         }
     }
 
-    fn report(self) {
+    fn report(self, n_callers: usize) {
         let n_right = self.n_asked - self.wrong.len();
         println!(
-            "G13: {n_right} of {} cells as specified (methods and operations x roles x objects)",
-            self.n_asked
+            "G13: {n_right} of {} cells as specified ({} methods and operations x {n_callers} callers x {} objects)",
+            self.n_asked,
+            self.n_asked / n_callers / OBJECTS.len(),
+            OBJECTS.len()
         );
         assert!(self.wrong.is_empty(), "{}", self.wrong.join("\n"));
     }

@@ -10,6 +10,7 @@ mod documented;
 mod http1;
 mod http2;
 mod http_bodies;
+mod json_forms;
 mod leases;
 mod marker_frames;
 mod memory;
@@ -21,6 +22,7 @@ mod positions;
 mod protocol_order;
 mod protocols;
 mod resources;
+mod solver_options;
 mod tls;
 mod websocket;
 

@@ -1,7 +1,7 @@
 //! Clients that share no code with the server: what the page for renderer developers shows, run against it.
 //!
-//! Each prints one line a promise and fails when one is broken. Each runs against a server in the clear, and against one
-//! with TLS and tokens.
+//! Each prints one line a promise and fails when one is broken. Each runs as its page says against a server in the clear,
+//! then again on the same server, and against one with TLS and tokens.
 
 use std::{
     ffi::OsString,
@@ -10,21 +10,17 @@ use std::{
 };
 
 use frontalis_access::Role;
-use frontalis_proto::v1::PublishMarkersRequest;
-use harness::{Protection, TestPerformance, TestServer, reference_package};
-use tempfile::TempDir;
+use harness::{ClientFiles, Protection, TestServer};
 
-/// Frames of the take that every client publishes.
-const N_FRAMES: u64 = 90;
-/// Frames in one message.
-const BATCH: usize = 10;
+/// How a person runs each of them.
+const README: &str = include_str!("../clients/README.md");
 
 #[tokio::test(flavor = "multi_thread", worker_threads = 2)]
 async fn python_over_grpc_imports_publishes_subscribes_resumes_and_reads_health() {
     let Some(python) = python() else { return };
-    let mut command = client(&python, "python/grpc_client.py");
-    command.push("--proto".into());
-    command.push(repository().join("proto").into());
+    let mut client = Client::new(&python, "python/grpc_client.py");
+    client.start.push("--proto".into());
+    client.start.push(repository().join("proto").into());
     let promises = [
         "server:",
         "import:",
@@ -37,7 +33,7 @@ async fn python_over_grpc_imports_publishes_subscribes_resumes_and_reads_health(
         "health:",
         "reflection:",
     ];
-    run_against_both(&command, &promises).await;
+    client.keeps(&promises).await;
 }
 
 #[tokio::test(flavor = "multi_thread", worker_threads = 2)]
@@ -45,11 +41,11 @@ async fn python_over_http_needs_the_standard_library_only() {
     let Some(python) = on_path("python3") else {
         return;
     };
-    let command = client(&python, "python/http_client.py");
+    let client = Client::new(&python, "python/http_client.py");
     let promises = [
         "server:", "import:", "session:", "publish:", "poll:", "events:", "refusal:", "end:",
     ];
-    run_against_both(&command, &promises).await;
+    client.keeps(&promises).await;
 }
 
 #[tokio::test(flavor = "multi_thread", worker_threads = 2)]
@@ -67,17 +63,24 @@ async fn typescript_over_grpc_and_grpc_web_shows_with_credits_and_resumes() {
         "credits:",
         "resume over grpc:",
         "resume over grpc-web:",
+        "end:",
         "refusal over grpc:",
         "refusal over grpc-web:",
     ];
-    run_against_both(&node.client("grpc_client.ts"), &promises).await;
+    node.client("typescript/grpc_client.ts")
+        .keeps(&promises)
+        .await;
 }
 
 #[tokio::test(flavor = "multi_thread", worker_threads = 2)]
 async fn typescript_over_websockets_does_with_what_a_browser_has() {
     let Some(node) = Node::find() else { return };
-    let promises = ["import:", "publish:", "latest:", "resume:", "refusal:"];
-    run_against_both(&node.client("web_client.ts"), &promises).await;
+    let promises = [
+        "import:", "publish:", "latest:", "resume:", "refusal:", "end:",
+    ];
+    node.client("typescript/web_client.ts")
+        .keeps(&promises)
+        .await;
 }
 
 #[tokio::test(flavor = "multi_thread", worker_threads = 2)]
@@ -85,109 +88,83 @@ async fn curl_does_everything_that_matters() {
     let (Some(bash), Some(_)) = (on_path("bash"), on_path("curl")) else {
         return;
     };
-    let command = client(&bash, "curl/client.sh");
+    let client = Client::new(&bash, "curl/client.sh");
     let promises = [
         "server:", "import:", "model:", "session:", "publish:", "by hand:", "poll:", "end:",
         "events:", "resume:", "refusal:",
     ];
-    run_against_both(&command, &promises).await;
+    client.keeps(&promises).await;
 }
 
-/// Interpreter and script.
-fn client(interpreter: &Path, script: &str) -> Vec<OsString> {
-    vec![interpreter.into(), clients().join(script).into()]
+/// One of the clients.
+struct Client {
+    /// Under `tests/clients`.
+    script: &'static str,
+    /// Interpreter, script, and what only this client is given.
+    start: Vec<OsString>,
 }
 
-async fn run_against_both(client: &[OsString], promises: &[&str]) {
-    let take = Take::write();
-    let server = TestServer::start().await;
-    // Again on the same server: what a client makes, it ends.
-    for _run in 0..2 {
-        run_client(client, &server.url(), &take, &[], promises).await;
+impl Client {
+    fn new(interpreter: &Path, script: &'static str) -> Self {
+        let start = vec![interpreter.into(), clients().join(script).into()];
+        Self { script, start }
     }
-    server.stop().await;
 
-    let protection = Protection::new();
-    let token = protection.token(Role::Publisher, "python*,typescript,web,curl*");
-    let operator = protection.token(Role::Operator, "*");
-    let server = TestServer::start_with(|it| protection.apply(it)).await;
-    let url = format!("https://{}", server.address());
-    let shown: [OsString; 6] = [
-        "--ca-cert".into(),
-        protection.ca_cert().into(),
-        "--token-file".into(),
-        token.into(),
-        "--operator-token-file".into(),
-        operator.into(),
-    ];
-    run_client(client, &url, &take, &shown, promises).await;
-    server.stop().await;
+    /// Runs it against a server in the clear, twice, and against a protected one.
+    async fn keeps(&self, promises: &[&str]) {
+        let folder = tempfile::tempdir().unwrap();
+        let files = ClientFiles::write(folder.path()).unwrap();
+        let server = TestServer::start().await;
+        let url = server.url();
+        check(self.by_hand(&url, folder.path()), promises).await;
+        // Again on the same server: what a client makes, it ends.
+        check(self.command(&url, &files), promises).await;
+        server.stop().await;
+
+        let protection = Protection::new();
+        let token = protection.token(Role::Publisher, "python*,typescript,web,curl*");
+        let operator = protection.token(Role::Operator, "*");
+        let server = TestServer::start_with(|it| protection.apply(it)).await;
+        let mut command = self.command(&format!("https://{}", server.address()), &files);
+        command.arg("--ca-cert").arg(protection.ca_cert());
+        command.arg("--token-file").arg(token);
+        command.arg("--operator-token-file").arg(operator);
+        // As a browser, Node has its authorities from outside.
+        command.env("NODE_EXTRA_CA_CERTS", protection.ca_cert());
+        check(command, promises).await;
+        server.stop().await;
+    }
+
+    fn command(&self, url: &str, files: &ClientFiles) -> Command {
+        let mut command = Command::new(&self.start[0]);
+        command.args(&self.start[1..]).args(["--server", url]);
+        command.arg("--package").arg(&files.package);
+        command.arg("--frames").arg(&files.frames);
+        command
+    }
+
+    /// The line of the page that runs it, with another server and other files.
+    fn by_hand(&self, url: &str, files: &Path) -> Command {
+        let named = format!("tests/clients/{} ", self.script);
+        let line = README.lines().find(|it| it.contains(&named));
+        let line = line.unwrap_or_else(|| panic!("the page does not run {}", self.script));
+        let files = format!("{}/", files.display());
+        let line = line
+            .replace("http://127.0.0.1:7400", url)
+            .replace("client-files/", &files);
+        let mut command = Command::new("bash");
+        command.args(["-c", &line]).current_dir(repository());
+        command
+    }
 }
 
-async fn run_client(
-    client: &[OsString],
-    url: &str,
-    take: &Take,
-    more: &[OsString],
-    promises: &[&str],
-) {
-    let mut command = Command::new(&client[0]);
-    command.args(&client[1..]).args(["--server", url]);
-    command.arg("--package").arg(&take.package);
-    command.arg("--frames").arg(&take.frames);
-    command.args(more);
-    // As a browser, Node has its authorities from outside.
-    if let Some(at) = more.iter().position(|it| it == "--ca-cert") {
-        command.env("NODE_EXTRA_CA_CERTS", &more[at + 1]);
-    }
+async fn check(mut command: Command, promises: &[&str]) {
     let said = run(&mut command).await;
     println!("{said}");
     for promise in promises {
         let is_kept = said.lines().any(|it| it.starts_with(promise));
         assert!(is_kept, "{promise} is missing:\n{said}");
     }
-}
-
-/// What every client is given.
-struct Take {
-    package: PathBuf,
-    frames: PathBuf,
-    _folder: TempDir,
-}
-
-impl Take {
-    fn write() -> Self {
-        let folder = tempfile::tempdir().unwrap();
-        let (package, frames) = (
-            folder.path().join("reference.glb"),
-            folder.path().join("take.ndjson"),
-        );
-        std::fs::write(&package, reference_package()).unwrap();
-        std::fs::write(&frames, take_as_json_lines()).unwrap();
-        Self {
-            package,
-            frames,
-            _folder: folder,
-        }
-    }
-}
-
-/// One `PublishMarkersRequest` a line: the start without its session, then the frames.
-fn take_as_json_lines() -> String {
-    let performance = TestPerformance::reference();
-    let start = PublishMarkersRequest {
-        start: Some(performance.start("", "client")),
-        ..PublishMarkersRequest::default()
-    };
-    let frames = performance.frames(1..=N_FRAMES);
-    let frames = frames.chunks(BATCH).map(|batch| PublishMarkersRequest {
-        frames: batch.to_vec(),
-        ..PublishMarkersRequest::default()
-    });
-    std::iter::once(start)
-        .chain(frames)
-        .map(|it| serde_json::to_string(&it).unwrap() + "\n")
-        .collect()
 }
 
 /// Runs a program to its end; what it printed.
@@ -242,15 +219,16 @@ impl Node {
         .await;
     }
 
-    /// How a client is started: Node 20 reads TypeScript through a loader.
-    fn client(&self, script: &str) -> Vec<OsString> {
+    /// Node 20 reads TypeScript through a loader.
+    fn client(&self, script: &'static str) -> Client {
         let loader = self.folder.join("node_modules/tsx/dist/esm/index.mjs");
-        vec![
+        let start = vec![
             self.program.clone().into(),
             "--import".into(),
             format!("file://{}", loader.display()).into(),
-            self.folder.join(script).into(),
-        ]
+            clients().join(script).into(),
+        ];
+        Client { script, start }
     }
 }
 

@@ -66,7 +66,7 @@ async fn take(server: &TestServer, way_in: In) -> Vec<Vec<u8>> {
             .unwrap()
             .subscribers
             .len()
-            == 5
+            == 6
     );
     let status = server.session(&session).await.status.unwrap();
     let mut protocols: Vec<_> = status
@@ -77,7 +77,14 @@ async fn take(server: &TestServer, way_in: In) -> Vec<Vec<u8>> {
     protocols.sort_unstable();
     assert_eq!(
         protocols,
-        ["grpc", "grpc-web", "sse", "websocket", "websocket"]
+        [
+            "grpc",
+            "grpc-web",
+            "grpc-web",
+            "sse",
+            "websocket",
+            "websocket"
+        ]
     );
     publish(server, way_in, &id, &performance).await;
     assert_eventually!(server.session(&session).await.status.unwrap().last_frame == FRAMES);
@@ -107,6 +114,14 @@ async fn take(server: &TestServer, way_in: In) -> Vec<Vec<u8>> {
     let first = first.unwrap();
     assert_eq!(bits(&polled.samples), bits(&first.samples), "polling");
     assert_eq!(polled.gaps, first.gaps, "polling");
+    for sample in &first.samples {
+        let errors = &sample.standard_errors;
+        assert_eq!(errors.len(), sample.activations.len());
+        assert!(
+            errors.iter().all(|it| it.is_finite() && *it >= 0.0),
+            "{errors:?}"
+        );
+    }
     let timeless = |mut it: CurveSample| {
         it.solved_time_nanos = 0;
         it
@@ -127,6 +142,7 @@ async fn follow(server: &TestServer, id: &str) -> Vec<Following> {
     let session = format!("sessions/{id}");
     let start = SubscribeStart {
         with_markers: true,
+        with_uncertainty: true,
         ..every_frame(&session)
     };
 
@@ -140,18 +156,11 @@ async fn follow(server: &TestServer, id: &str) -> Vec<Following> {
         received
     });
 
-    let mut web = GrpcWeb::follow(server, &start).await;
-    let over_web = tokio::spawn(async move {
-        let mut received = Received::default();
-        while let Some(answer) = web.next().await {
-            received.take(answer);
-        }
-        assert!(web.trailers.contains("grpc-status:0"), "{}", web.trailers);
-        received
-    });
+    let over_web = follow_web(GrpcWeb::follow(server, &start).await);
+    let over_web_text = follow_web(GrpcWeb::follow_as_text(server, &start).await);
 
     let path = format!(
-        "/api/v1/sessions/{id}/events?delivery=every_frame&fromOldest=true&withMarkers=true"
+        "/api/v1/sessions/{id}/events?delivery=every_frame&fromOldest=true&withMarkers=true&withUncertainty=true"
     );
     let mut events = EventStream::open(server, &path, "").await.unwrap();
     let over_events = tokio::spawn(async move {
@@ -167,10 +176,22 @@ async fn follow(server: &TestServer, id: &str) -> Vec<Following> {
     vec![
         ("gRPC", over_grpc),
         ("gRPC-web", over_web),
+        ("gRPC-web as text", over_web_text),
         ("SSE", over_events),
         ("WebSocket, JSON", json),
         ("WebSocket, protobuf", protobuf),
     ]
+}
+
+fn follow_web(mut web: GrpcWeb) -> JoinHandle<Received> {
+    tokio::spawn(async move {
+        let mut received = Received::default();
+        while let Some(answer) = web.next().await {
+            received.take(answer);
+        }
+        assert!(web.trailers.contains("grpc-status:0"), "{}", web.trailers);
+        received
+    })
 }
 
 async fn follow_socket(
@@ -210,9 +231,12 @@ async fn poll(server: &TestServer, id: &str) -> Received {
     let mut received = Received::default();
     let mut after = 0;
     loop {
-        let path = format!("/api/v1/sessions/{id}/curves?after={after}&limit=100&withMarkers=true");
-        let page: ReadCurvesResponse =
-            serde_json::from_value(http_get(server, &path).await.json()).unwrap();
+        let path = format!(
+            "/api/v1/sessions/{id}/curves?after={after}&limit=100&withMarkers=true&withUncertainty=true"
+        );
+        let answer = http_get(server, &path).await;
+        assert!(!answer.text().contains("NaN") && !answer.text().contains("null"));
+        let page: ReadCurvesResponse = serde_json::from_value(answer.json()).unwrap();
         received.samples.extend(page.samples);
         received.gaps.extend(page.gaps);
         if page.read_through == page.newest_sequence {

@@ -3,8 +3,11 @@
 
 mod access;
 mod access_matrix;
+mod accuracy;
 mod api_page;
+mod audit;
 mod bad_input;
+mod citations;
 mod clients;
 mod command_line;
 mod curl_refusals;
@@ -18,4 +21,5 @@ mod layering;
 mod load;
 mod openapi;
 mod real_takes;
+mod recentering;
 mod restart;

@@ -204,8 +204,17 @@ async fn frames_through(curves: &mut CurveClient, frame: u64) -> (Vec<u64>, usiz
     (frames, runs)
 }
 
+/// A server with a session that adds nothing to what a frame says, so that its curves are those that made the frame.
 async fn staged() -> TestServer {
-    TestServer::with_session("stage").await
+    let server = TestServer::start().await;
+    server.import_reference().await;
+    let plain = SessionSettings {
+        plain: Some(true),
+        ..SessionSettings::default()
+    };
+    let created = server.create_session_with("stage", "actors/reference", plain);
+    created.await.unwrap();
+    server
 }
 
 async fn actor(server: &TestServer) -> frontalis_proto::v1::Actor {

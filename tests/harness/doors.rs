@@ -16,6 +16,7 @@ pub use socket_frames::{SocketFrame, SocketFrames};
 pub use stalled::StalledDoors;
 pub use web_socket::{Closed, WebSocket};
 
+use frontalis_access::Token;
 use frontalis_proto::v1::{CurveEnd, CurveHeader, CurveSample, Gap, SubscribeResponse};
 use http_body_util::BodyExt as _;
 use hyper::{
@@ -28,9 +29,10 @@ use tokio::net::TcpStream;
 
 use crate::{HttpAnswer, TestServer};
 
-/// One request over HTTP/1.1 on a connection of its own, which lives as long as the answer.
+/// One request over HTTP/1.1 on a connection of its own, which lives as long as the answer; with a token or none.
 async fn exchange<B>(
     server: &TestServer,
+    token: Option<&Token>,
     request: http::request::Builder,
     body: B,
 ) -> Response<Incoming>
@@ -42,7 +44,10 @@ where
     stream.set_nodelay(true).unwrap();
     let (mut sender, connection) = http1::handshake(TokioIo::new(stream)).await.unwrap();
     tokio::spawn(connection);
-    let request = request.header("host", server.address().to_string());
+    let mut request = request.header("host", server.address().to_string());
+    if let Some(token) = token {
+        request = request.header("authorization", format!("Bearer {}", token.reveal()));
+    }
     let request: Request<B> = request.body(body).unwrap();
     sender.send_request(request).await.unwrap()
 }

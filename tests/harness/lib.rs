@@ -8,11 +8,14 @@
     reason = "a test that fails here is its own report"
 )]
 
+pub mod accuracy;
+mod client_files;
 mod control_session;
 mod cost;
 mod doors;
 mod eventually;
 mod http;
+mod issuer;
 mod keys;
 mod load;
 mod package;
@@ -32,6 +35,7 @@ mod subscriber;
 mod tls;
 mod vanishing;
 
+pub use client_files::ClientFiles;
 pub use control_session::{ControlReport, ControlSession};
 pub use cost::Cost;
 pub use doors::{
@@ -39,6 +43,7 @@ pub use doors::{
     SocketFrames, StalledDoors, WebSocket,
 };
 pub use http::{HttpAnswer, http_get, http_send};
+pub use issuer::TestIssuer;
 pub use keys::{Bearer, Keys, now};
 pub use load::{LoadProfile, LoadReport};
 pub use package::{PackageFiles, glb, reference_package, toy_files, toy_glb, toy_json, zip};

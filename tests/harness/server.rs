@@ -247,14 +247,21 @@ impl TestServer {
 
     /// A connection of its own that shows no token.
     pub async fn bare_channel(&self) -> Channel {
-        let endpoint = Endpoint::from_shared(format!("http://{}", self.address()))
-            .unwrap()
-            .tcp_nodelay(true);
-        let channel = match &self.tls {
-            None => endpoint.connect().await,
-            Some(tls) => tls.channel(&endpoint, self.address()).await,
-        };
+        match &self.tls {
+            None => self.endpoint().connect().await.unwrap(),
+            Some(tls) => self.channel_over(tls).await,
+        }
+    }
+
+    /// A connection of its own that shows no token but what this client of TLS shows.
+    pub async fn channel_over(&self, tls: &TestTls) -> Channel {
+        let channel = tls.channel(&self.endpoint(), self.address()).await;
         channel.unwrap()
+    }
+
+    fn endpoint(&self) -> Endpoint {
+        let endpoint = Endpoint::from_shared(format!("http://{}", self.address()));
+        endpoint.unwrap().tcp_nodelay(true)
     }
 
     /// From now on the harness speaks TLS to it.

@@ -87,6 +87,11 @@ impl TestAuthority {
         self.write("revoked.pem", &list.pem().unwrap())
     }
 
+    /// Writes what is no PEM over a file.
+    pub fn damage(&self, name: &str) {
+        self.write(name, "-----BEGIN NOTHING-----\n");
+    }
+
     /// A client's certificate of this number, good until that year.
     pub fn client(&self, name: &str, serial: u64, until_year: i32) -> ClientCert {
         let mut params = CertificateParams::default();

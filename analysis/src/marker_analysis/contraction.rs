@@ -8,23 +8,31 @@ use nalgebra::{Matrix3, Vector3};
 
 use super::{
     alignment::Alignment,
+    diagnosis::{Diagnosis, SolvedFrame},
+    estimate::Frame,
+    estimated::Estimated,
     evidence::{Evidence, Part},
-    head_motion::{JointProblem, Stabilizer},
+    head_motion::{JointProblem, MOTION, Stabilizer},
     marker_model::MarkerModel,
     neutral_watch::NeutralDoubt,
+    objective::Objective,
+    plain_uncertainty::{PlainFrame, PlainUncertainty},
     range::MuscleRange,
+    reproduction::Reproduction,
     settings::{MarkerSettings, RegionMode},
     still_problem::{StillProblem, fix},
 };
 use crate::{
     curve::HeldReason,
     face::{actor::Actor, region::FaceRegion},
-    numeric::lanes::add_multiple_of,
     space::{HeadPose, PerformancePoint},
 };
 
 /// An unobserved muscle decays by 1/e in this time.
 const UNOBSERVED_DECAY_SECS: f64 = 0.2;
+
+/// A head that jumps further in a frame is found anew, centimeters: no muscle moves most markers as far.
+const HEAD_JUMP_CM: f64 = 2.0;
 
 /// After a longer time without a solved frame the head's pose is fitted anew.
 const POSE_LOST_SECS: f64 = 0.3;
@@ -51,34 +59,40 @@ pub struct ContractionSolver {
     translation_cm: Vector3<f64>,
     region_mode: RegionMode,
     stabilize_head: bool,
-    upper_bound: f64,
+    /// Bounds of each muscle in the solver's order.
+    boxes: Vec<[f64; 2]>,
     rate_hz: f64,
     /// By which an unobserved muscle fades in one frame.
     decay: f64,
 
     /// Contractions in the solver's order.
     x: Vec<f64>,
-    /// Where they stood before the joint problem of this frame.
-    x_before: Vec<f64>,
     motion: Stabilizer,
     /// Frames since the motion was last found; `None` before the first.
     frames_since_pose: Option<u64>,
     head_known: bool,
     regions: [RegionOutcome; 2],
     kkt_residual: f64,
+    /// How many times the size of the face the last frame had, when it was not a face's.
+    scale_jump: Option<f64>,
 
+    /// `None` only while a frame is solved.
     evidence: Option<Evidence>,
     joint: JointProblem,
     still: StillProblem,
+    /// `None` where no term is added to the paper's objective.
+    estimated: Option<Estimated>,
+    plain_uncertainty: PlainUncertainty,
+    diagnosis: Diagnosis,
+    /// x before the frame.
+    before: Vec<f64>,
 
     visible: Vec<bool>,
     aligned: Vec<Vector3<f64>>,
     stabilized: Vec<Vector3<f64>>,
-    reproduced: Vec<f64>,
+    reproduction: Reproduction,
     /// |observed − reproduced| of every marker, visible or not, centimeters.
     errors: Vec<f64>,
-    /// The muscles that are not at rest, in front.
-    active: Vec<usize>,
 }
 
 impl ContractionSolver {
@@ -91,31 +105,36 @@ impl ContractionSolver {
     ) -> Self {
         let model = MarkerModel::new(actor, alignment);
         let (n, m) = (model.n_markers(), model.n_muscles());
+        let boxes = boxes(&model, actor, settings);
         let similarity = &alignment.model_from_performance;
         Self {
             linear_part: similarity.rotation.to_rotation_matrix().into_inner() * similarity.scale,
             translation_cm: similarity.translation_cm,
             region_mode: settings.region_mode,
             stabilize_head: settings.stabilize_head,
-            upper_bound: settings.upper_bound(),
             rate_hz,
             decay: decay(rate_hz),
-            x: vec![0.0; m],
-            x_before: vec![0.0; m],
+            x: boxes.iter().map(|[lower, _]| *lower).collect(),
             motion: Stabilizer::identity(),
             frames_since_pose: None,
             head_known: false,
             regions: [RegionOutcome::default(); 2],
             kkt_residual: 0.0,
-            evidence: None,
+            scale_jump: None,
+            evidence: Some(Evidence::new(&model, settings.region_mode)),
             joint: JointProblem::new(m),
             still: StillProblem::new(&model, settings.region_mode),
+            estimated: needs_estimator(&settings.objective)
+                .then(|| Estimated::new(&model, actor.muscle_set(), settings, &boxes, rate_hz)),
+            plain_uncertainty: PlainUncertainty::new(&model, n_unknowns(m, settings)),
+            diagnosis: Diagnosis::new(actor, &model, settings.neutral_frames, rate_hz),
+            before: vec![0.0; m],
+            boxes,
             visible: vec![false; n],
             aligned: vec![Vector3::zeros(); n],
             stabilized: vec![Vector3::zeros(); n],
-            reproduced: vec![0.0; 3 * n],
+            reproduction: Reproduction::new(&model),
             errors: vec![0.0; n],
-            active: vec![0; m],
             model,
         }
     }
@@ -124,9 +143,12 @@ impl ContractionSolver {
     pub fn continue_from(&mut self, before: &Self) {
         if before.x.len() == self.x.len() {
             self.x.clone_from(&before.x);
-            for it in &mut self.x {
-                *it = it.min(self.upper_bound);
+            for (it, [lower, upper]) in self.x.iter_mut().zip(&self.boxes) {
+                *it = it.clamp(*lower, *upper);
             }
+        }
+        if let (Some(estimated), Some(before)) = (&mut self.estimated, &before.estimated) {
+            estimated.continue_from(before);
         }
         self.motion = before.motion;
         self.frames_since_pose = before.frames_since_pose;
@@ -143,6 +165,15 @@ impl ContractionSolver {
     pub fn set_rate_hz(&mut self, rate_hz: f64) {
         self.rate_hz = rate_hz;
         self.decay = decay(rate_hz);
+        self.diagnosis.set_rate_hz(rate_hz);
+        if let Some(estimated) = &mut self.estimated {
+            estimated.set_rate_hz(rate_hz);
+        }
+    }
+
+    /// Frames that were captured and did not come: the next one is so much later.
+    pub fn pass(&mut self, n_frames: u64) {
+        self.frames_since_pose = self.frames_since_pose.map(|it| it.saturating_add(n_frames));
     }
 
     /// Solves one frame: one position a marker of the actor, in the actor's order.
@@ -164,6 +195,7 @@ impl ContractionSolver {
         }
         self.kkt_residual = 0.0;
         self.head_known = false;
+        self.scale_jump = None;
         if !evidence.is_held() {
             self.solve_visible(&evidence);
         }
@@ -181,39 +213,43 @@ impl ContractionSolver {
         }
     }
 
-    /// The evidence of the present visibility: the last frame's, unless a marker came or went.
+    /// The evidence of the present visibility.
     fn current_evidence(&mut self) -> Evidence {
-        match self.evidence.take() {
-            Some(evidence) if evidence.visible == self.visible => evidence,
-            _ => {
-                let evidence = Evidence::new(&self.model, self.region_mode, &self.visible);
-                self.set_evidence(&evidence);
-                evidence
-            }
+        let mut evidence = self
+            .evidence
+            .take()
+            .unwrap_or_else(|| Evidence::new(&self.model, self.region_mode));
+        if evidence.show(&self.model, &self.visible)
+            && self.estimated.is_none()
+            && !evidence.is_held()
+        {
+            self.set_evidence(&evidence);
         }
+        evidence
     }
 
     fn set_evidence(&mut self, evidence: &Evidence) {
-        if evidence.is_held() {
-            return;
-        }
         if self.stabilize_head {
-            self.joint.set_evidence(evidence, self.upper_bound);
+            self.joint.set_evidence(evidence, &self.boxes);
         }
         if !self.stabilize_head || self.region_mode == RegionMode::Split {
-            self.still
-                .set_evidence(&self.model, evidence, self.upper_bound);
+            self.still.set_evidence(&self.model, evidence, &self.boxes);
         }
     }
 
     fn solve_visible(&mut self, evidence: &Evidence) {
-        if evidence.is_degenerate(&self.aligned) {
+        let shape = evidence.shape(&self.aligned);
+        self.scale_jump = shape.scale_jump();
+        if self.scale_jump.is_some() || shape.is_degenerate() {
             return self.hold_all(HeldReason::DegeneratePose);
         }
-        self.decay_unobserved(evidence);
-        let solved = if self.stabilize_head {
+        let solved = if self.estimated.is_some() {
+            self.estimate(evidence)
+        } else if self.stabilize_head {
+            self.decay_unobserved(evidence);
             self.solve_with_head(evidence)
         } else {
+            self.decay_unobserved(evidence);
             self.stabilized.copy_from_slice(&self.aligned);
             self.solve_still(evidence);
             true
@@ -221,6 +257,40 @@ impl ContractionSolver {
         if solved {
             self.measure_errors(evidence);
         }
+    }
+
+    /// The problem with the terms of the objective.
+    fn estimate(&mut self, evidence: &Evidence) -> bool {
+        let is_first = self.frames_since_pose.is_none();
+        let is_lost = !is_first && !self.pose_is_recent();
+        if self.stabilize_head && !self.start_motion(evidence) {
+            self.hold_all(HeldReason::DegeneratePose);
+            return false;
+        }
+        let Some(estimated) = &mut self.estimated else {
+            return false;
+        };
+        if is_lost {
+            estimated.forget();
+        }
+        self.before.copy_from_slice(&self.x);
+        let mut frame = Frame {
+            model: &self.model,
+            evidence,
+            aligned: &mut self.aligned,
+            stabilized: &mut self.stabilized,
+            decay: self.decay,
+            elapsed: self.frames_since_pose.unwrap_or(1) as f64,
+        };
+        let Ok(report) = estimated.solve(&mut frame, &mut self.motion, &mut self.x) else {
+            self.x.copy_from_slice(&self.before);
+            self.hold_all(HeldReason::SolverBudget);
+            return false;
+        };
+        self.frames_since_pose = Some(0);
+        self.head_known = self.stabilize_head;
+        self.kkt_residual = report.kkt_residual;
+        true
     }
 
     fn hold_all(&mut self, reason: HeldReason) {
@@ -244,7 +314,7 @@ impl ContractionSolver {
             self.hold_all(HeldReason::DegeneratePose);
             return false;
         }
-        self.x_before.copy_from_slice(&self.x);
+        self.before.copy_from_slice(&self.x);
         fix(&mut self.joint.qp, &evidence.parts, &self.x);
         let report = self.joint.solve(
             &self.model,
@@ -255,7 +325,7 @@ impl ContractionSolver {
             &mut self.x,
         );
         let Ok(report) = report else {
-            self.x.copy_from_slice(&self.x_before);
+            self.x.copy_from_slice(&self.before);
             self.hold_all(HeldReason::SolverBudget);
             return false;
         };
@@ -266,26 +336,45 @@ impl ContractionSolver {
             *stabilized = self.motion.apply(aligned);
         }
         if self.region_mode == RegionMode::Split {
-            self.x.copy_from_slice(&self.x_before);
+            self.x.copy_from_slice(&self.before);
             self.solve_still(evidence);
         }
         true
     }
 
-    /// Fits the head's motion anew where the last one is too old to start from.
-    fn start_motion(&mut self, evidence: &Evidence) -> bool {
+    fn pose_is_recent(&self) -> bool {
         let limit = POSE_LOST_SECS * self.rate_hz;
-        if self.frames_since_pose.is_some_and(|it| it as f64 <= limit) {
+        self.frames_since_pose.is_some_and(|it| it as f64 <= limit)
+    }
+
+    /// Fits the head's motion anew where the last one is too old to start from, or the head has jumped away from it.
+    fn start_motion(&mut self, evidence: &Evidence) -> bool {
+        self.reproduction.of(&self.model, &self.x);
+        if self.pose_is_recent() && !self.head_jumped(evidence) {
             return true;
         }
-        self.reproduce();
-        match Stabilizer::fitted(&self.model, evidence, &self.aligned, &self.reproduced) {
+        match Stabilizer::fitted(
+            &self.model,
+            evidence,
+            &self.aligned,
+            self.reproduction.positions(),
+        ) {
             Some(motion) => {
                 self.motion = motion;
                 true
             }
             None => false,
         }
+    }
+
+    /// Whether most markers are further from where the last pose puts them than a face can move in a frame.
+    fn head_jumped(&self, evidence: &Evidence) -> bool {
+        let is_far = |j: &&usize| {
+            let expected = self.reproduction.at(**j);
+            let distance = self.motion.apply(&self.aligned[**j]) - expected;
+            distance.norm_squared() > HEAD_JUMP_CM * HEAD_JUMP_CM
+        };
+        2 * evidence.used.iter().filter(is_far).count() > evidence.used.len()
     }
 
     /// The problem over the stabilized markers, without a pose.
@@ -306,27 +395,10 @@ impl ContractionSolver {
         );
     }
 
-    /// p = p₀ + D x at every marker.
-    fn reproduce(&mut self) {
-        self.reproduced.copy_from_slice(&self.model.rest_by_rows);
-        // Listed without a branch a muscle: which of them are at rest changes with every frame.
-        let mut n_active = 0;
-        for (muscle, &x) in self.x.iter().enumerate() {
-            self.active[n_active] = muscle;
-            n_active += usize::from(x != 0.0);
-        }
-        for &muscle in &self.active[..n_active] {
-            let support = self.model.support[muscle].clone();
-            let column = &self.model.column(muscle)[support.clone()];
-            add_multiple_of(&mut self.reproduced[support], self.x[muscle], column);
-        }
-    }
-
     /// Per-frame marker error of each region (Choe & Ko 2001, section 5).
     fn measure_errors(&mut self, evidence: &Evidence) {
-        self.reproduce();
-        let (reproduced, _) = self.reproduced.as_chunks::<3>();
-        let pairs = self.stabilized.iter().zip(reproduced);
+        self.reproduction.of(&self.model, &self.x);
+        let pairs = self.stabilized.iter().zip(self.reproduction.positions());
         for (error, (observed, reproduced)) in self.errors.iter_mut().zip(pairs) {
             *error = (observed - Vector3::from(*reproduced)).norm_squared();
         }
@@ -350,11 +422,15 @@ impl ContractionSolver {
 
     /// Contractions in the actor's order.
     pub fn activations(&self) -> Vec<f64> {
-        let mut activations = vec![0.0; self.x.len()];
-        for (&muscle, &x) in self.model.muscles.iter().zip(&self.x) {
-            activations[muscle] = x;
+        self.in_actors_order(&self.x)
+    }
+
+    fn in_actors_order(&self, of_muscles: &[f64]) -> Vec<f64> {
+        let mut ordered = vec![0.0; of_muscles.len()];
+        for (&muscle, &value) in self.model.muscles.iter().zip(of_muscles) {
+            ordered[muscle] = value;
         }
-        activations
+        ordered
     }
 
     /// Actor's indices of the muscles that the last frame could not tell, ascending.
@@ -369,34 +445,103 @@ impl ContractionSolver {
         unobserved
     }
 
+    /// Says how far the frame that was just solved can be trusted, and what it says about the actor's draft.
+    ///
+    /// `positions` are those that were solved.
+    pub fn assess(&mut self, positions: &[Option<PerformancePoint>]) {
+        let Some(evidence) = self.evidence.as_ref().filter(|_| self.is_solved()) else {
+            return;
+        };
+        if self.estimated.is_none() {
+            let joint = self.stabilize_head && self.region_mode == RegionMode::Joint;
+            self.plain_uncertainty.observe(&PlainFrame {
+                model: &self.model,
+                evidence,
+                stabilized: &self.stabilized,
+                reproduction: &self.reproduction,
+                x: &self.x,
+                boxes: &self.boxes,
+                mode: self.region_mode,
+                joint: joint.then_some(&self.joint.qp),
+                rate_hz: self.rate_hz,
+            });
+        }
+        if self.diagnosis.is_due() {
+            let estimated = self.estimated.as_ref();
+            self.diagnosis.look(&SolvedFrame {
+                model: &self.model,
+                evidence,
+                positions,
+                stabilized: &self.stabilized,
+                is_masked: &|j| estimated.is_some_and(|it| it.last().is_masked(j)),
+                x: &self.x,
+                standard_errors: estimated.map_or_else(
+                    || self.plain_uncertainty.standard_errors(),
+                    |it| it.last().standard_errors(),
+                ),
+            });
+        }
+    }
+
+    /// Whether the last frame was solved, at least a region of it.
+    fn is_solved(&self) -> bool {
+        self.regions.iter().any(|it| it.held.is_none())
+    }
+
+    /// How many times the size of the face the last frame had, when it was not a face's: another unit. It was held.
+    pub fn scale_jump(&self) -> Option<f64> {
+        self.scale_jump
+    }
+
     /// One sigma of each contraction, in the actor's order.
     pub fn standard_errors(&self) -> Vec<f64> {
-        vec![0.0; self.x.len()]
+        let own = self.estimated.as_ref().map_or_else(
+            || self.plain_uncertainty.standard_errors(),
+            |it| it.last().standard_errors(),
+        );
+        self.in_actors_order(own)
+    }
+
+    /// Noise of a coordinate of a marker, as the residuals show it, centimeters.
+    fn sigma_cm(&self) -> f64 {
+        self.estimated.as_ref().map_or_else(
+            || self.plain_uncertainty.sigma_cm(),
+            |it| it.last().sigma_cm(),
+        )
     }
 
     /// Actor's indices of the markers that were seen and masked in the last frame.
     pub fn outliers(&self) -> Vec<usize> {
-        Vec::new()
+        let Some(estimated) = self.estimated.as_ref().filter(|_| self.is_solved()) else {
+            return Vec::new();
+        };
+        let used = self.evidence.iter().flat_map(|it| &it.used);
+        let masked = used.filter(|j| estimated.last().is_masked(**j));
+        masked.map(|&j| self.model.markers[j]).collect()
     }
 
     /// Actor's indices of the markers whose labels were put right in the last frame.
     pub fn relabeled(&self) -> Vec<[usize; 2]> {
-        Vec::new()
+        let Some(estimated) = self.estimated.as_ref().filter(|_| self.is_solved()) else {
+            return Vec::new();
+        };
+        let named = |pair: &[usize; 2]| pair.map(|j| self.model.markers[j]);
+        estimated.swaps().iter().map(named).collect()
     }
 
     /// How far each muscle went, in the actor's order.
     pub fn ranges(&self) -> Vec<MuscleRange> {
-        Vec::new()
+        self.diagnosis.ranges(&self.model)
     }
 
-    /// Whether the neutral frames were neutral.
-    pub fn neutral_doubt(&self) -> Option<NeutralDoubt> {
-        None
+    /// Whether later frames were quieter than the neutral ones, which left `aligned_cm`, centimeters root mean square.
+    pub fn quieter_frames_seen(&self, aligned_cm: f64) -> Option<NeutralDoubt> {
+        self.diagnosis.doubt(aligned_cm, self.sigma_cm())
     }
 
     /// The `n` quietest frames seen so far, fewer when there are not as many.
-    pub fn quietest_frames(&self, _n: usize) -> Vec<&[Option<PerformancePoint>]> {
-        Vec::new()
+    pub fn quietest_frames(&self, n: usize) -> Vec<&[Option<PerformancePoint>]> {
+        self.diagnosis.quietest(n)
     }
 
     /// What each region showed, in the order of [`FaceRegion::ALL`].
@@ -422,10 +567,37 @@ impl ContractionSolver {
         let solved = self.regions.iter().any(|it| it.held.is_none());
         let count = if solved { self.model.n_markers() } else { 0 };
         (0..count).filter(|&j| self.visible[j]).map(|j| {
-            let reproduced = Vector3::from_column_slice(&self.reproduced[3 * j..3 * j + 3]);
-            (self.model.markers[j], self.stabilized[j], reproduced)
+            (
+                self.model.markers[j],
+                self.stabilized[j],
+                self.reproduction.at(j),
+            )
         })
     }
+}
+
+/// Bounds of each muscle in the solver's order.
+fn boxes(model: &MarkerModel, actor: &Actor, settings: &MarkerSettings) -> Vec<[f64; 2]> {
+    let own = |name: &str| {
+        let mut bounds = settings.objective.bounds.iter();
+        bounds.find(|it| it.muscle == name)
+    };
+    let muscles = model.muscles.iter();
+    let box_of = |muscle: &usize| match own(&actor.muscle_set().muscles()[*muscle].name) {
+        Some(bounds) => [bounds.lower, bounds.upper],
+        None => [0.0, settings.upper_bound()],
+    };
+    muscles.map(box_of).collect()
+}
+
+/// Whether anything is asked for that the paper's own problem does not have.
+fn needs_estimator(objective: &Objective) -> bool {
+    !objective.is_plain() || !objective.exclusive_pairs.is_empty()
+}
+
+fn n_unknowns(n_muscles: usize, settings: &MarkerSettings) -> usize {
+    let has_motion = settings.stabilize_head && settings.region_mode == RegionMode::Joint;
+    n_muscles + if has_motion { MOTION } else { 0 }
 }
 
 /// What is left of an unobserved contraction after one frame.

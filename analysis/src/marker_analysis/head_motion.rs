@@ -64,15 +64,14 @@ impl Stabilizer {
         .inverse()
     }
 
-    /// The best rigid fit of the used markers to where they are `expected` (x y z of each after the other), trusting those
+    /// The best rigid fit of the used markers to where they are `expected`, trusting those
     /// most that muscles move least.
     pub fn fitted(
         model: &MarkerModel,
         evidence: &Evidence,
         aligned: &[Vector3<f64>],
-        expected: &[f64],
+        expected: &[[f64; 3]],
     ) -> Option<Self> {
-        let (expected, _) = expected.as_chunks::<3>();
         let pairs = evidence.used.iter().map(|&j| {
             let noise = FIT_MOBILITY_SHARE * model.mobility(j);
             let weight = 1.0 / (FIT_SIGMA_CM * FIT_SIGMA_CM + noise * noise);
@@ -86,7 +85,7 @@ impl Stabilizer {
     }
 
     /// Adds exp(ω) about `center`, then τ. The product is brought back to a rotation, so that errors do not add up.
-    fn advance(&mut self, omega: Vector3<f64>, tau: Vector3<f64>, center: Vector3<f64>) {
+    pub fn advance(&mut self, omega: Vector3<f64>, tau: Vector3<f64>, center: Vector3<f64>) {
         let turn = Rotation3::from_scaled_axis(omega);
         let rotation = turn.matrix() * self.rotation;
         self.translation = turn * (self.translation - center) + center + tau;
@@ -126,10 +125,10 @@ impl JointProblem {
 
     /// Takes over the sums that do not depend on the motion: the muscles' block and the translation's. Every muscle gets
     /// its box.
-    pub fn set_evidence(&mut self, evidence: &Evidence, upper: f64) {
+    pub fn set_evidence(&mut self, evidence: &Evidence, boxes: &[[f64; 2]]) {
         let m = evidence.parts.len();
-        for i in 0..m {
-            self.qp.set_bounds(i, 0.0, upper);
+        for (i, [lower, upper]) in boxes.iter().enumerate() {
+            self.qp.set_bounds(i, *lower, *upper);
         }
         let (size, stride) = (m + MOTION, self.qp.stride());
         let n = evidence.used.len() as f64;

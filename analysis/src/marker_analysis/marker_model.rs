@@ -10,7 +10,7 @@ use nalgebra::Vector3;
 use crate::{
     face::{actor::Actor, basis::MarkerBasis, region::FaceRegion},
     marker_analysis::alignment::Alignment,
-    numeric::{lanes::CHUNK, projection::support},
+    numeric::{lanes::LANES, projection::support},
 };
 
 #[derive(Clone, Debug)]
@@ -27,14 +27,14 @@ pub(super) struct MarkerModel {
     pub expected: [usize; 2],
     /// Virtual markers of the neutral face, centimeters.
     pub rest: Vec<Vector3<f64>>,
-    /// The same, x y z of each after the other.
-    pub rest_by_rows: Vec<f64>,
     /// D by rows: entry `(3 * marker + axis) * n_muscles + muscle`, centimeters.
     pub rows: Vec<f64>,
     /// D by columns: entry `muscle * 3 * n_markers + 3 * marker + axis`, centimeters.
     pub columns: Vec<f64>,
     /// The coordinates that each muscle moves: all others of its column are 0. Widened to whole chunks of the loops.
     pub support: Vec<Range<usize>>,
+    /// The muscles that move each marker: all others of its rows are 0.
+    pub marker_support: Vec<Range<usize>>,
 }
 
 impl MarkerModel {
@@ -68,11 +68,11 @@ impl MarkerModel {
             .map(|&it| basis.neutral[it].0.coords)
             .collect();
         let mut model = Self {
-            rest_by_rows: rest.iter().flatten().copied().collect(),
             rest,
             rows: vec![0.0; 3 * markers.len() * muscles.len()],
             columns: vec![0.0; 3 * markers.len() * muscles.len()],
             support: Vec::new(),
+            marker_support: Vec::new(),
             markers,
             muscles,
             own_markers,
@@ -80,10 +80,24 @@ impl MarkerModel {
             expected,
         };
         model.lay_out(&basis);
-        model.support = (0..model.n_muscles())
-            .map(|muscle| widened(&support(model.column(muscle)), 3 * model.n_markers()))
-            .collect();
+        model.find_supports();
         model
+    }
+
+    fn find_supports(&mut self) {
+        self.support = (0..self.n_muscles())
+            .map(|muscle| widened(&support(self.column(muscle)), 3 * self.n_markers()))
+            .collect();
+        self.marker_support = (0..self.n_markers())
+            .map(|marker| self.muscles_that_move(marker))
+            .collect();
+    }
+
+    fn muscles_that_move(&self, marker: usize) -> Range<usize> {
+        let rows = [0, 1, 2].map(|axis| support(self.row(marker, axis)));
+        let moved = || rows.iter().filter(|it| !it.is_empty());
+        let start = moved().map(|it| it.start).min().unwrap_or(0);
+        start..moved().map(|it| it.end).max().unwrap_or(start)
     }
 
     fn lay_out(&mut self, basis: &MarkerBasis) {
@@ -129,6 +143,41 @@ impl MarkerModel {
         )
     }
 
+    /// The same face with every marker moved by the muscles of its own region only.
+    pub fn with_regions_apart(&self) -> Self {
+        let mut apart = self.clone();
+        let (n, m) = (self.n_markers(), self.n_muscles());
+        let own =
+            |it: &[Range<usize>; 2], index: usize| it.iter().position(|it| it.contains(&index));
+        for j in 0..n {
+            for i in 0..m {
+                if own(&self.own_markers, j) != own(&self.own_muscles, i) {
+                    for axis in 0..3 {
+                        apart.rows[(3 * j + axis) * m + i] = 0.0;
+                        apart.columns[i * 3 * n + 3 * j + axis] = 0.0;
+                    }
+                }
+            }
+        }
+        apart.find_supports();
+        apart
+    }
+
+    /// Adds `change` times one marker's `DⱼᵀDⱼ` to `gram`, whose columns are `stride` apart.
+    pub fn change_gram(&self, gram: &mut [f64], stride: usize, j: usize, change: f64) {
+        let support = self.marker_support[j].clone();
+        for axis in 0..3 {
+            let row = &self.row(j, axis)[support.clone()];
+            for (i, d) in support.clone().zip(row) {
+                let column = &mut gram[i * stride..][support.clone()];
+                let factor = change * d;
+                for (q, other) in column.iter_mut().zip(row) {
+                    *q += factor * other;
+                }
+            }
+        }
+    }
+
     /// Mobility of a marker: √Σᵢ |dᵢⱼ|², centimeters.
     pub fn mobility(&self, marker: usize) -> f64 {
         let squared: f64 = (0..3)
@@ -142,8 +191,8 @@ impl MarkerModel {
 /// The chunks of `0..n` that hold `range`. All of them start where chunks of others do: a processor waits when it reads what
 /// is half of one entry and half of the next of those just written.
 fn widened(range: &Range<usize>, n: usize) -> Range<usize> {
-    let end = range.end.next_multiple_of(CHUNK).min(n);
-    range.start / CHUNK * CHUNK..end
+    let end = range.end.next_multiple_of(LANES).min(n);
+    range.start / LANES * LANES..end
 }
 
 /// The kept items sorted by region (`None` last), with the range of each region.

@@ -1,7 +1,8 @@
 //! Several neutral frames to one: registered rigidly to each other and averaged.
 //!
 //! The head may move while the neutral face is collected; averaging K frames divides the marker noise by √K before the
-//! surface projection of the alignment, which would otherwise turn that noise into a wrong binding.
+//! surface projection of the alignment, which would otherwise turn that noise into a wrong binding. Markers that jump in a
+//! frame are left out of it.
 
 use nalgebra::{Point3, Vector3};
 
@@ -12,6 +13,12 @@ use crate::{
 
 /// Rounds of registering every frame to the mean; each round moves the mean by less than a tenth of the one before.
 const ROUNDS: usize = 3;
+
+/// An offset from the mean of more than this many medians of all offsets is no noise: six standard deviations of a coordinate.
+const OUTLIER_MEDIANS: f64 = 4.0;
+
+/// And what is nearer does no harm, centimeters: frames without noise have a median of nothing.
+const LEAST_OUTLIER_CM: f64 = 0.05;
 
 /// Markers that two frames must share to be registered.
 const MARKERS_SHARED: usize = 3;
@@ -40,10 +47,57 @@ pub fn average(frames: &[&Positions]) -> Neutral {
         positions: reference.map_or(Vec::new(), |it| it.to_vec()),
         noise_cm: 0.0,
     };
+    neutral = average_from(frames, neutral);
+    let Some(kept) = without_outliers(frames, &neutral.positions) else {
+        return neutral;
+    };
+    let kept: Vec<&Positions> = kept.iter().map(Vec::as_slice).collect();
+    average_from(&kept, neutral)
+}
+
+fn average_from(frames: &[&Positions], mut neutral: Neutral) -> Neutral {
     for _ in 0..ROUNDS {
         neutral = register_all(frames, &neutral.positions);
     }
     neutral
+}
+
+/// The frames less the markers that lie further from the mean than noise can put them; `None` when there are none.
+///
+/// One marker that jumps by a centimeter in one of fifteen frames would move its place on the face by more than the noise
+/// of a whole take.
+fn without_outliers(
+    frames: &[&Positions],
+    mean: &Positions,
+) -> Option<Vec<Vec<Option<PerformancePoint>>>> {
+    let offset = |point: Option<Point3<f64>>, mean: &Option<PerformancePoint>| {
+        Some((point? - (*mean)?.0).norm())
+    };
+    let registered: Vec<_> = frames.iter().map(|it| register(it, mean)).collect();
+    let moved = registered.iter().flatten();
+    let mut offsets: Vec<f64> = moved
+        .flat_map(|it| it.iter().zip(mean))
+        .filter_map(|(point, mean)| offset(*point, mean))
+        .collect();
+    if offsets.is_empty() {
+        return None;
+    }
+    let middle = offsets.len() / 2;
+    let (_, median, _) = offsets.select_nth_unstable_by(middle, f64::total_cmp);
+    let limit_cm = LEAST_OUTLIER_CM.max(OUTLIER_MEDIANS * *median);
+    let mut found = false;
+    let kept = frames.iter().zip(&registered).map(|(frame, moved)| {
+        let mut frame = frame.to_vec();
+        for ((position, point), mean) in frame.iter_mut().zip(moved.iter().flatten()).zip(mean) {
+            if offset(*point, mean).is_some_and(|it| it > limit_cm) {
+                *position = None;
+                found = true;
+            }
+        }
+        frame
+    });
+    let kept = kept.collect();
+    found.then_some(kept)
 }
 
 /// Sums over the frames that show one marker.
@@ -152,6 +206,26 @@ mod tests {
             assert!((mean.unwrap().0 - truth.unwrap().0).norm() < 1e-9);
         }
         assert!(neutral.noise_cm < 1e-7);
+    }
+
+    #[test]
+    fn a_marker_that_jumps_in_a_frame_does_not_move_its_mean() {
+        let mut frames: Vec<_> = (0..15).map(|k| frame(0.01 * f64::from(k), None)).collect();
+        frames[4][2].as_mut().unwrap().0.x += 2.0;
+        frames[0][1].as_mut().unwrap().0.y -= 0.7;
+        let borrowed: Vec<&Positions> = frames.iter().map(Vec::as_slice).collect();
+        let neutral = average(&borrowed);
+        let face = frame(0.0, None);
+        let pairs = neutral
+            .positions
+            .iter()
+            .zip(&face)
+            .map(|(mean, truth)| (1.0, mean.unwrap().0, truth.unwrap().0));
+        let motion = fit(pairs.clone(), Scale::One).unwrap();
+        for (_, mean, truth) in pairs {
+            let moved = motion.rotation * mean.coords + motion.translation;
+            assert!((moved - truth.coords).norm() < 0.02, "{moved} {truth}");
+        }
     }
 
     #[test]

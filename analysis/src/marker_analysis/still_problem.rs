@@ -8,7 +8,7 @@ use std::ops::Range;
 use nalgebra::Vector3;
 
 use super::{
-    evidence::{Evidence, Part, gram},
+    evidence::{Evidence, Part},
     head_motion::RIDGE,
     marker_model::MarkerModel,
     settings::RegionMode,
@@ -35,6 +35,8 @@ pub(super) struct StillProblem {
     displacements: Vec<f64>,
     /// Where x started: a block that fails stands still.
     before: Vec<f64>,
+    /// `Σ DⱼᵀDⱼ` over one region's own markers.
+    own_gram: Vec<f64>,
 }
 
 impl StillProblem {
@@ -50,21 +52,25 @@ impl StillProblem {
             blocks,
             displacements: vec![0.0; 3 * model.n_markers()],
             before: vec![0.0; model.n_muscles()],
+            own_gram: vec![0.0; model.n_muscles() * model.n_muscles()],
         }
     }
 
     /// Takes over Q of the markers that are used, and gives every muscle its box.
-    pub fn set_evidence(&mut self, model: &MarkerModel, evidence: &Evidence, upper: f64) {
+    pub fn set_evidence(&mut self, model: &MarkerModel, evidence: &Evidence, boxes: &[[f64; 2]]) {
         for block in &mut self.blocks {
             match block.region {
                 None => block.set_hessian(&evidence.gram, model.n_muscles()),
                 Some(index) => {
-                    let own = gram(model, &evidence.own_used[index]);
-                    block.set_hessian(&own, model.n_muscles());
+                    self.own_gram.fill(0.0);
+                    for &j in &evidence.own_used[index] {
+                        model.change_gram(&mut self.own_gram, model.n_muscles(), j, 1.0);
+                    }
+                    block.set_hessian(&self.own_gram, model.n_muscles());
                 }
             }
-            for i in 0..block.qp.len() {
-                block.qp.set_bounds(i, 0.0, upper);
+            for (i, [lower, upper]) in boxes[block.muscles.clone()].iter().enumerate() {
+                block.qp.set_bounds(i, *lower, *upper);
             }
         }
         self.displacements.fill(0.0);

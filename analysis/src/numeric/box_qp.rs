@@ -7,10 +7,10 @@
 //! Block pivoting may go in circles; the primal method takes over after a few steps and cannot: it walks towards the solution
 //! of the free unknowns, stops at the first bound in the way, and, once none is, releases the worst multiplier alone.
 
-use super::factor::Factor;
-
-/// Columns of Q are padded to a multiple of this, so that short loops have no remainder.
-pub const LANES: usize = 4;
+use super::{
+    factor::Factor,
+    lanes::{padded, subtract_multiple},
+};
 
 /// How far, relative to the largest diagonal entry of Q, a multiplier may have the wrong sign in a solution.
 pub const MULTIPLIER_TOLERANCE: f64 = 1e-11;
@@ -39,14 +39,15 @@ pub struct BoxQp {
     side: Vec<f64>,
     /// 1 where free, else 0.
     is_free: Vec<f64>,
-    /// The free unknowns, ascending.
+    /// The free unknowns, those that have been free for longest first.
     free: Vec<usize>,
+    /// Which are in `free`.
+    is_listed: Vec<bool>,
     /// The unknowns that are bound at another value than 0, ascending.
     offset: Vec<usize>,
-    /// The last solution.
+    /// The last solution; `side`, `free` and `offset` are those of it while `is_settled`.
     solution: Vec<f64>,
-    /// Whether `side`, `free` and `offset` are those of the last solution.
-    solution_stands: bool,
+    is_settled: bool,
     /// The free set that `factor` belongs to; empty when Q has changed since.
     factored: Vec<usize>,
     factor: Factor,
@@ -80,7 +81,7 @@ pub enum BoxQpError {
 impl BoxQp {
     /// A program of `m` unknowns, 0 ≤ x ≤ 1, whose Q is yet to be given.
     pub fn new(m: usize) -> Self {
-        let stride = m.next_multiple_of(LANES);
+        let stride = padded(m);
         Self {
             m,
             stride,
@@ -91,9 +92,10 @@ impl BoxQp {
             side: vec![0.0; m],
             is_free: vec![0.0; m],
             free: Vec::with_capacity(m),
+            is_listed: vec![false; m],
             offset: Vec::with_capacity(m),
             solution: vec![0.0; m],
-            solution_stands: false,
+            is_settled: false,
             factored: Vec::with_capacity(m),
             factor: Factor::with_capacity(m),
             target: vec![0.0; stride],
@@ -107,14 +109,9 @@ impl BoxQp {
         self.m
     }
 
-    /// Distance of the columns of Q: m, padded to a multiple of [`LANES`]; the padding is 0.
+    /// Distance of the columns of Q: m, padded to whole lanes; the padding is 0.
     pub fn stride(&self) -> usize {
         self.stride
-    }
-
-    /// Q, columns [`BoxQp::stride`] apart.
-    pub(super) fn hessian(&self) -> &[f64] {
-        &self.hessian
     }
 
     /// Whether there is nothing to solve for.
@@ -130,6 +127,26 @@ impl BoxQp {
         self.largest_diagonal = diagonal.fold(0.0, |largest: f64, &it| largest.max(it));
     }
 
+    /// Q in full, columns [`BoxQp::stride`] apart.
+    pub fn hessian(&self) -> &[f64] {
+        &self.hessian
+    }
+
+    /// Whether the last solution has the unknown between its bounds.
+    pub fn is_free(&self, unknown: usize) -> bool {
+        self.is_free[unknown] > 0.0
+    }
+
+    /// ½ xᵀQx − cᵀx.
+    pub fn objective(&self, c: &[f64], x: &[f64]) -> f64 {
+        let columns = self.hessian.chunks_exact(self.stride.max(1));
+        let terms = columns.zip(c).zip(x).map(|((column, c), x_i)| {
+            let product: f64 = column.iter().zip(x).map(|(q, x)| q * x).sum();
+            x_i * (0.5 * product - c)
+        });
+        terms.sum()
+    }
+
     /// The interval of one unknown; `lower == upper` fixes it.
     ///
     /// # Panics
@@ -139,7 +156,7 @@ impl BoxQp {
         assert!(lower.is_finite() && upper.is_finite() && lower <= upper);
         self.lower[unknown] = lower;
         self.upper[unknown] = upper;
-        self.solution_stands = false;
+        self.is_settled = false;
     }
 
     /// Solves for `x`, which holds the start on entry (any values; they are moved into the box) and the solution on return.
@@ -148,13 +165,12 @@ impl BoxQp {
     ///
     /// When Q is not positive definite on the free unknowns, or the step limit is reached; `x` is then some point of the box.
     pub fn solve(&mut self, c: &[f64], x: &mut [f64]) -> Result<Report, BoxQpError> {
-        if !(self.solution_stands && self.solution == x) {
+        if !std::mem::take(&mut self.is_settled) || self.solution != x {
             self.start(x);
         }
-        self.solution_stands = false;
         let report = self.solve_started(c, x)?;
         self.solution.copy_from_slice(x);
-        self.solution_stands = true;
+        self.is_settled = true;
         Ok(report)
     }
 
@@ -264,14 +280,23 @@ impl BoxQp {
     }
 
     /// Lists the free unknowns, and those bound at another value than 0.
+    ///
+    /// What stays free keeps its place, what is newly free comes last: unknowns that flicker at a bound gather at the end, and
+    /// the factor of those before them stays good.
     fn list(&mut self, x: &[f64]) {
-        self.free.clear();
+        self.free.retain(|&i| {
+            self.is_listed[i] = self.is_free[i] > 0.0;
+            self.is_listed[i]
+        });
         self.offset.clear();
         for (i, (&x, &is_free)) in x.iter().zip(&self.is_free).enumerate() {
-            if is_free > 0.0 {
+            if is_free <= 0.0 {
+                if x != 0.0 {
+                    self.offset.push(i);
+                }
+            } else if !self.is_listed[i] {
+                self.is_listed[i] = true;
                 self.free.push(i);
-            } else if x != 0.0 {
-                self.offset.push(i);
             }
         }
     }
@@ -369,17 +394,6 @@ impl BoxQp {
             }
         }
         worst.0
-    }
-}
-
-/// `y -= a * x` for lengths that are multiples of [`LANES`].
-fn subtract_multiple(y: &mut [f64], a: f64, x: &[f64]) {
-    let (y, _) = y.as_chunks_mut::<LANES>();
-    let (x, _) = x.as_chunks::<LANES>();
-    for (y, x) in y.iter_mut().zip(x) {
-        for (y, x) in y.iter_mut().zip(x) {
-            *y -= a * x;
-        }
     }
 }
 

@@ -1,6 +1,7 @@
 //! The product of two vectors, summed in a fixed order: the result does not depend on the processor's instruction set.
 
 /// Σ aᵢbᵢ over the shorter of the two; four sums side by side, so that an addition does not wait for the one before.
+#[inline]
 pub(crate) fn dot(a: &[f64], b: &[f64]) -> f64 {
     let ((blocks_a, rest_a), (blocks_b, rest_b)) = (a.as_chunks::<4>(), b.as_chunks::<4>());
     let mut rest = 0.0;

@@ -8,8 +8,13 @@ const WIDEST: usize = 16;
 /// Lanes of a group of a problem that is cut into groups.
 const GROUP: usize = 8;
 
-/// Entries that loops over slices take at once.
-pub(crate) const CHUNK: usize = 4;
+/// Entries that loops over slices take at once: rows and columns that are padded to a multiple of it need no loop over a remainder.
+pub const LANES: usize = 4;
+
+/// `n` rounded up to a multiple of [`LANES`].
+pub(crate) fn padded(n: usize) -> usize {
+    n.next_multiple_of(LANES)
+}
 
 /// Lanes of one group for `n` numbers: all of them in one group, made even, or groups of [`GROUP`].
 pub(crate) fn width(n: usize) -> usize {
@@ -77,15 +82,39 @@ pub(crate) fn add_multiple<const W: usize>(y: &mut [f64; W], a: f64, x: &[f64; W
     }
 }
 
-/// `y += a * x` for slices; those whose length is a multiple of [`CHUNK`] are fastest.
+/// `y += a * x` for slices; those whose length is a multiple of [`LANES`] are fastest.
 pub(crate) fn add_multiple_of(y: &mut [f64], a: f64, x: &[f64]) {
-    let (chunks, rest) = y.as_chunks_mut::<CHUNK>();
-    let (x_chunks, x_rest) = x.as_chunks::<CHUNK>();
+    let (chunks, rest) = y.as_chunks_mut::<LANES>();
+    let (x_chunks, x_rest) = x.as_chunks::<LANES>();
     for (y, x) in chunks.iter_mut().zip(x_chunks) {
         add_multiple(y, a, x);
     }
     for (y, x) in rest.iter_mut().zip(x_rest) {
         *y += a * x;
+    }
+}
+
+/// `y -= a * x` for lengths that are multiples of [`LANES`].
+#[inline]
+pub(crate) fn subtract_multiple(y: &mut [f64], a: f64, x: &[f64]) {
+    let (y, _) = y.as_chunks_mut::<LANES>();
+    let (x, _) = x.as_chunks::<LANES>();
+    for (y, x) in y.iter_mut().zip(x) {
+        for (y, x) in y.iter_mut().zip(x) {
+            *y -= a * x;
+        }
+    }
+}
+
+/// `y -= a[0] * x[0]`, then `y -= a[1] * x[1]`, in one pass; lengths are multiples of [`LANES`].
+#[inline]
+pub(crate) fn subtract_two(y: &mut [f64], [a, b]: [f64; 2], [x, z]: [&[f64]; 2]) {
+    let (y, _) = y.as_chunks_mut::<LANES>();
+    let ((x, _), (z, _)) = (x.as_chunks::<LANES>(), z.as_chunks::<LANES>());
+    for ((y, x), z) in y.iter_mut().zip(x).zip(z) {
+        for ((y, x), z) in y.iter_mut().zip(x).zip(z) {
+            *y = (*y - a * x) - b * z;
+        }
     }
 }
 

@@ -55,11 +55,15 @@ impl Performance {
     pub fn of(actor: &Actor, stage: Stage) -> Self {
         let mut rng = Pcg64::seed_from_u64(stage.seed);
         let truth = contractions(actor.muscle_set().len(), stage, &mut rng);
+        Self::of_truth(actor, stage, truth, &mut rng)
+    }
+
+    pub fn of_truth(actor: &Actor, stage: Stage, truth: Vec<Vec<f64>>, rng: &mut Pcg64) -> Self {
         let basis = MarkerBasis::at(actor, actor.virtual_markers());
         let frames = truth
             .iter()
             .enumerate()
-            .map(|(k, x)| capture(&basis, x, k, stage, &mut rng))
+            .map(|(k, x)| capture(&basis, x, k, stage, rng))
             .collect();
         Self { frames, truth }
     }

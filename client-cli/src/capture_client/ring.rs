@@ -233,16 +233,18 @@ mod tests {
         frames.iter().map(|it| it.number).collect()
     }
 
+    /// CONTRACTS D-9.
     #[test]
-    fn d9_frames_that_fall_out_unsent_are_a_reported_gap() {
+    fn frames_that_fall_out_unsent_are_a_reported_gap() {
         let ring = ring_of(10, 1..=15);
         assert_eq!(ring.len(), 10);
         assert_eq!(ring.lost().as_pairs(), [(1, 5)]);
         assert_eq!(ring.lost().n_frames(), 5);
     }
 
+    /// CONTRACTS D-9.
     #[test]
-    fn d9_the_byte_limit_holds_too() {
+    fn the_byte_limit_holds_too() {
         let mut ring = UnackedRing::new(RingLimits {
             frames: 1_000,
             bytes: 10 * size_bytes(&frame(1)),

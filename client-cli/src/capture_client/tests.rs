@@ -85,8 +85,9 @@ async fn a_takeover_is_asked_for_once_only() {
     assert_eq!(server.record().takeovers, [true, false]);
 }
 
+/// CONTRACTS D-29.
 #[tokio::test(start_paused = true)]
-async fn d29_a_fenced_publisher_never_comes_back_by_itself() {
+async fn a_fenced_publisher_never_comes_back_by_itself() {
     let fenced = Capture::Break {
         taken: 5,
         acked: 5,
@@ -119,8 +120,9 @@ async fn a_refused_frame_is_reported_and_not_repeated() {
     assert_eq!(server.record().arrived[0], all(10));
 }
 
+/// CONTRACTS D-9.
 #[tokio::test(start_paused = true)]
-async fn d9_a_live_publisher_that_cannot_reach_the_server_reports_the_gap() {
+async fn a_live_publisher_that_cannot_reach_the_server_reports_the_gap() {
     let refuse = || Capture::Refuse(Status::unavailable("starting"));
     let mut script = vec![broken(1, 1)];
     script.extend((0..40).map(|_| refuse()));

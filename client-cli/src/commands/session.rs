@@ -5,6 +5,7 @@ use std::process::ExitCode;
 use anyhow::Context as _;
 use clap::{Args, Subcommand};
 use frontalis_client::{connection::Channel, error::ClientError, proto};
+use frontalis_proto::FieldMask;
 use proto::session_service_client::SessionServiceClient;
 
 use super::{Context, actor_name, names::new_session_id, session_name, settings::SettingsArgs};
@@ -19,12 +20,12 @@ pub enum SessionCommand {
     Create(CreateArgs),
     /// List the sessions of the server
     List,
-    /// Show one session: settings, state, counts, latencies, subscribers
+    /// Show one session: settings, state, counts, latencies, subscribers, and what its curves say of the shapes
     Show(IdArgs),
     /// Change settings, or move to another revision of the actor, between two frames
     Update(UpdateArgs),
-    /// Take the next frames as the neutral face again
-    Recenter(IdArgs),
+    /// Take another neutral face; a live session goes on with the old one until the new is known
+    Recenter(RecenterArgs),
     /// End a session: what is queued is solved, subscribers are told
     End(IdArgs),
 }
@@ -32,7 +33,7 @@ pub enum SessionCommand {
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   frontalis session create --actor anna --id take-1
-  frontalis session create --actor anna --neutral-frames 1 --regions split   as in the paper")]
+  frontalis session create --actor anna --neutral-frames 1 --regions split --plain   as in the paper")]
 pub struct CreateArgs {
     /// Whose capture it is
     #[arg(long, value_name = "ID")]
@@ -54,10 +55,26 @@ pub struct IdArgs {
 }
 
 #[derive(Debug, Args)]
-#[command(after_help = "Only the settings that are given change.
+#[command(after_help = "Examples:
+  frontalis session recenter take-1              the next frames: let the actor relax the face first
+  frontalis session recenter take-1 --quietest   the quietest frames seen so far, at once")]
+pub struct RecenterArgs {
+    /// The session
+    id: String,
+    /// The quietest frames seen so far, instead of the next ones
+    #[arg(long)]
+    quietest: bool,
+}
 
-Example:
-  frontalis session update take-1 --exaggeration=false --actor-revision 2")]
+#[derive(Debug, Args)]
+#[command(
+    after_help = "Only the settings that are given change. Lists are replaced as a whole.
+--plain=false brings the default terms back.
+
+Examples:
+  frontalis session update take-1 --exaggeration=false --actor-revision 2
+  frontalis session update take-1 --smoothing 0.2 --bounds jaw=0..0.8 --exclusive none"
+)]
 pub struct UpdateArgs {
     /// The session
     id: String,
@@ -78,7 +95,10 @@ pub async fn run(context: &Context, command: SessionCommand) -> anyhow::Result<E
         }
         SessionCommand::Create(args) => create(&mut client, args).await,
         SessionCommand::Show(args) => show(&mut client, args).await,
-        SessionCommand::Update(args) => update(&mut client, args).await,
+        SessionCommand::Update(args) => {
+            let update_mask = args.settings.update_mask()?;
+            update(&mut client, args, update_mask).await
+        }
         SessionCommand::Recenter(args) => recenter(&mut client, args).await,
         SessionCommand::End(args) => end(&mut client, args).await,
     };
@@ -125,10 +145,17 @@ async fn show(client: &mut Client, args: IdArgs) -> Result<Option<proto::Session
 
 async fn recenter(
     client: &mut Client,
-    args: IdArgs,
+    args: RecenterArgs,
 ) -> Result<Option<proto::Session>, ClientError> {
-    let name = session_name(&args.id);
-    let request = proto::RecenterSessionRequest { name };
+    let mut request = proto::RecenterSessionRequest {
+        name: session_name(&args.id),
+        ..proto::RecenterSessionRequest::default()
+    };
+    request.set_source(if args.quietest {
+        proto::NeutralSource::QuietestFrames
+    } else {
+        proto::NeutralSource::NextFrames
+    });
     Ok(client.recenter_session(request).await?.into_inner().session)
 }
 
@@ -141,12 +168,13 @@ async fn end(client: &mut Client, args: IdArgs) -> Result<Option<proto::Session>
 async fn update(
     client: &mut Client,
     args: UpdateArgs,
+    update_mask: Option<FieldMask>,
 ) -> Result<Option<proto::Session>, ClientError> {
     let request = proto::UpdateSessionRequest {
         name: session_name(&args.id),
         settings: Some(args.settings.to_proto()),
         actor_revision: args.actor_revision.unwrap_or_default(),
-        update_mask: None,
+        update_mask,
     };
     Ok(client.update_session(request).await?.into_inner().session)
 }

@@ -3,6 +3,9 @@
 use clap::{Args, ValueEnum};
 use frontalis_analysis::analyzer::{MarkerSettings, RegionMode};
 use frontalis_client::proto;
+use frontalis_proto::FieldMask;
+
+use super::objective::ObjectiveArgs;
 
 /// How the regions of the face share one frame's problem.
 #[derive(Clone, Copy, Debug, ValueEnum)]
@@ -32,13 +35,16 @@ pub struct AnalysisArgs {
     /// One problem or two [default: joint]
     #[arg(long, value_enum)]
     regions: Option<Regions>,
+
+    #[command(flatten)]
+    objective: ObjectiveArgs,
 }
 
 impl AnalysisArgs {
     /// What `solve` hands to the analysis.
-    pub fn to_marker_settings(&self) -> MarkerSettings {
+    pub fn to_marker_settings(&self) -> anyhow::Result<MarkerSettings> {
         let default = MarkerSettings::default();
-        MarkerSettings {
+        Ok(MarkerSettings {
             neutral_frames: self
                 .neutral_frames
                 .map_or(default.neutral_frames, |it| it as usize),
@@ -49,7 +55,8 @@ impl AnalysisArgs {
             },
             stabilize_head: self.fixed_head.map_or(default.stabilize_head, |it| !it),
             align_on_request: false,
-        }
+            objective: self.objective.to_objective()?,
+        })
     }
 }
 
@@ -95,7 +102,22 @@ impl SettingsArgs {
             Some(Regions::Split) => settings.set_region_mode(proto::RegionMode::Split),
             None => {}
         }
+        analysis.objective.fill(&mut settings);
         settings
+    }
+
+    /// Names what was given, where a list was given as `none`: without a mask an empty list counts as not given.
+    pub fn update_mask(&self) -> anyhow::Result<Option<FieldMask>> {
+        let emptied = self.analysis.objective.emptied_lists();
+        if emptied.is_empty() {
+            return Ok(None);
+        }
+        // In JSON absent fields are left out, and a mask is the names of fields joined by commas.
+        let given = serde_json::to_value(self.to_proto())?;
+        let given = given.as_object().into_iter().flatten();
+        let given = given.map(|(name, _)| name.as_str());
+        let paths = given.chain(emptied).collect::<Vec<_>>().join(",");
+        Ok(Some(serde_json::from_value(paths.into())?))
     }
 }
 
@@ -121,9 +143,10 @@ mod tests {
             proto::SessionSettings::default()
         );
         assert_eq!(
-            AnalysisArgs::default().to_marker_settings(),
+            AnalysisArgs::default().to_marker_settings().unwrap(),
             MarkerSettings::default()
         );
+        assert_eq!(SettingsArgs::default().update_mask().unwrap(), None);
     }
 
     #[test]
@@ -133,8 +156,9 @@ mod tests {
             exaggeration: Some(true),
             fixed_head: Some(true),
             regions: Some(Regions::Split),
+            objective: ObjectiveArgs::default(),
         };
-        let local = analysis.to_marker_settings();
+        let local = analysis.to_marker_settings().unwrap();
         assert_eq!(local.neutral_frames, 3);
         assert!(local.allow_exaggeration && !local.stabilize_head);
         assert_eq!(local.region_mode, RegionMode::Split);

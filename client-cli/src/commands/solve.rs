@@ -15,7 +15,7 @@ use frontalis_analysis::{
     face::actor::{Actor, RankPolicy},
 };
 use frontalis_client::{
-    csv::{CsvRow, CsvWriter},
+    csv::{Columns, CsvRow, CsvWriter},
     curve_client::CurveEvent,
     error::advice_on,
     proto,
@@ -23,19 +23,25 @@ use frontalis_client::{
     take_file,
 };
 
-use super::{Context, actor, marker_check::MarkerCheck, settings::AnalysisArgs};
+use super::{Context, actor, marker_check::MarkerCheck, settings::AnalysisArgs, solve_report};
 use crate::{
     json,
     terminal::{progress, say},
 };
 
 /// Solve a TRC file without a server, as a session would
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "each is one flag that a person types"
+)]
 #[derive(Debug, Args)]
 #[command(
     after_help = "The table has the columns and the bits of `frontalis watch --csv` for the same frames and settings.
 
-Example:
-  frontalis solve take.trc --actor anna.zip --csv > take.csv"
+Examples:
+  frontalis solve take.trc --actor anna.zip                            counts, and what the take says of the shapes
+  frontalis solve take.trc --actor anna.zip --csv > take.csv
+  frontalis solve take.trc --actor anna.zip --plain --csv > plain.csv  the paper's least squares alone"
 )]
 pub struct SolveArgs {
     /// The file
@@ -46,6 +52,9 @@ pub struct SolveArgs {
     /// Print a table of comma-separated values instead of a summary
     #[arg(long, conflicts_with = "json")]
     csv: bool,
+    /// Print the standard error of each activation too: with --csv one more column a muscle, with --json `standardErrors`
+    #[arg(long)]
+    standard_errors: bool,
     /// Accept a basis whose muscles the markers cannot tell apart
     #[arg(long)]
     regularize: bool,
@@ -57,6 +66,9 @@ pub struct SolveArgs {
 }
 
 pub fn run(context: &Context, args: &SolveArgs) -> anyhow::Result<ExitCode> {
+    if args.standard_errors && !args.csv && !context.json {
+        bail!("--standard-errors needs --csv or --json");
+    }
     let take = if args.renumber {
         take_file::read_renumbered(&args.take)?
     } else {
@@ -73,7 +85,7 @@ pub fn run(context: &Context, args: &SolveArgs) -> anyhow::Result<ExitCode> {
         .with_context(|| format!("cannot use the package {}", args.actor.display()))?;
     let actor = Arc::new(actor);
     let bar = progress::frames(take.frames.len() as u64, "solving");
-    let settings = args.settings.to_marker_settings();
+    let settings = args.settings.to_marker_settings()?;
     let solved = solve_take(&take, &actor, settings, || bar.inc(1))
         .with_context(|| format!("cannot solve {}", args.take.display()))?;
     bar.finish_and_clear();
@@ -83,12 +95,22 @@ pub fn run(context: &Context, args: &SolveArgs) -> anyhow::Result<ExitCode> {
     if solved.samples.is_empty() {
         bail!("{} gave no sample", args.take.display());
     }
+    let columns = Columns::wanted(args.standard_errors);
     if args.csv {
-        write_csv(&actor, &solved)?;
+        write_csv(&actor, &solved, columns)?;
     } else if context.json {
-        write_json(&actor, &solved)?;
+        write_json(&actor, &solved, columns)?;
     } else {
-        say(summary(&solved, take.frames.len()))?;
+        say(solve_report::summary(&solved, take.frames.len()))?;
+    }
+    let is_table = args.csv || context.json;
+    for line in solve_report::findings(&actor, &solved) {
+        // What a table cannot show is said beside it.
+        if is_table {
+            eprintln!("{line}");
+        } else {
+            say(line)?;
+        }
     }
     Ok(ExitCode::SUCCESS)
 }
@@ -108,7 +130,7 @@ fn report_left_out(solved: &Solved) {
     }
 }
 
-fn muscle_names(actor: &Actor) -> impl Iterator<Item = &str> {
+fn muscle_names(actor: &Actor) -> impl Iterator<Item = &str> + Clone {
     actor
         .muscle_set()
         .muscles()
@@ -116,9 +138,9 @@ fn muscle_names(actor: &Actor) -> impl Iterator<Item = &str> {
         .map(|it| it.name.as_str())
 }
 
-fn write_csv(actor: &Actor, solved: &Solved) -> io::Result<()> {
+fn write_csv(actor: &Actor, solved: &Solved, columns: Columns) -> io::Result<()> {
     let out = BufWriter::new(io::stdout().lock());
-    let mut writer = CsvWriter::new(out, muscle_names(actor))?;
+    let mut writer = CsvWriter::new(out, muscle_names(actor), columns)?;
     for sample in &solved.samples {
         writer.write(&CsvRow::from(sample))?;
     }
@@ -126,7 +148,7 @@ fn write_csv(actor: &Actor, solved: &Solved) -> io::Result<()> {
 }
 
 /// One JSON object a sample, after one that names the controls: the messages of a subscription.
-fn write_json(actor: &Actor, solved: &Solved) -> io::Result<()> {
+fn write_json(actor: &Actor, solved: &Solved, columns: Columns) -> io::Result<()> {
     let mut out = BufWriter::new(io::stdout().lock());
     let controls = muscle_names(actor).map(|it| proto::Control {
         name: it.to_owned(),
@@ -146,6 +168,9 @@ fn write_json(actor: &Actor, solved: &Solved) -> io::Result<()> {
             activations: row.activations,
             ..proto::CurveSample::default()
         };
+        if columns == Columns::WithStandardErrors {
+            message.standard_errors = row.standard_errors;
+        }
         message.set_quality(wire_quality(sample.quality));
         writeln!(out, "{}", json::event(CurveEvent::Sample(message))?)?;
     }
@@ -158,27 +183,4 @@ fn wire_quality(quality: Quality) -> proto::Quality {
         Quality::Partial => proto::Quality::Partial,
         Quality::Held => proto::Quality::Held,
     }
-}
-
-fn summary(solved: &Solved, n_frames: usize) -> String {
-    let count = |quality| {
-        solved
-            .samples
-            .iter()
-            .filter(|it| it.quality == quality)
-            .count()
-    };
-    let mean_error = |region: usize| {
-        let error_cm = solved.mean_marker_error_cm(region);
-        error_cm.map_or("-".to_owned(), |it| format!("{:.3} mm", it * 10.0))
-    };
-    format!(
-        "{n_frames} frames, {} samples: {} solved, {} partial, {} held; mean marker error upper {}, lower {} (--csv prints the curves)",
-        solved.samples.len(),
-        count(Quality::Solved),
-        count(Quality::Partial),
-        count(Quality::Held),
-        mean_error(0),
-        mean_error(1),
-    )
 }

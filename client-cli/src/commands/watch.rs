@@ -4,9 +4,12 @@ mod sink;
 
 use std::{process::ExitCode, time::Duration};
 
-use anyhow::Context as _;
+use anyhow::{Context as _, bail};
 use clap::Args;
-use frontalis_client::curve_client::{CurveClient, CurveEvent, CurveSettings, StartAt, Wanted};
+use frontalis_client::{
+    csv::Columns,
+    curve_client::{CurveClient, CurveEvent, CurveSettings, StartAt, Wanted},
+};
 use tokio::time::{MissedTickBehavior, interval};
 
 use self::sink::Sink;
@@ -22,7 +25,8 @@ const TICK: Duration = Duration::from_millis(33);
 )]
 #[derive(Debug, Args)]
 #[command(
-    after_help = "CSV columns are frame, capture_time_nanos, quality (solved, partial or held), then one a muscle.
+    after_help = "CSV columns are frame, capture_time_nanos, quality (solved, partial or held), then one a muscle,
+and with --standard-errors one more a muscle, MUSCLE_standard_error.
 
 Examples:
   frontalis watch take-1                                                  live bars, q quits
@@ -47,6 +51,9 @@ pub struct WatchArgs {
     /// Print a table of comma-separated values
     #[arg(long, requires = "every_frame", conflicts_with = "json")]
     csv: bool,
+    /// Ask for the standard error of each activation too: with --csv one more column a muscle, with --json `standardErrors`
+    #[arg(long)]
+    standard_errors: bool,
     /// Samples in flight, 1 to 32, when the newest wins: 2 on a local network, rate x round trip + 1 in general
     #[arg(long, value_name = "N", default_value_t = 2, value_parser = clap::value_parser!(u32).range(1..=32), conflicts_with = "every_frame")]
     credits: u32,
@@ -77,17 +84,22 @@ impl WatchArgs {
         };
         CurveSettings {
             subscriber: "frontalis watch".to_owned(),
+            with_uncertainty: self.standard_errors,
             ..CurveSettings::new(session_name(&self.session), wanted)
         }
     }
 }
 
 pub async fn run(context: &Context, args: WatchArgs) -> anyhow::Result<ExitCode> {
+    let columns = Columns::wanted(args.standard_errors);
+    if args.standard_errors && !args.csv && !context.json {
+        bail!("--standard-errors needs --csv or --json: live bars do not show them");
+    }
     let mut interrupt = Interrupt::listen()?;
     let mut curves = CurveClient::subscribe(context.connect().await?, args.settings())
         .await
         .with_context(|| format!("cannot follow the session {}", args.session))?;
-    let mut sink = Sink::choose(context, &args.session, args.csv)?;
+    let mut sink = Sink::choose(context, &args.session, args.csv.then_some(columns))?;
     let mut watched = Watched::default();
     let mut tick = interval(TICK);
     tick.set_missed_tick_behavior(MissedTickBehavior::Skip);

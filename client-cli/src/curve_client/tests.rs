@@ -120,8 +120,9 @@ async fn data_loss_is_reported_with_the_exact_range() {
     assert!(events.contains(&lost));
 }
 
+/// CONTRACTS D-14.
 #[tokio::test(start_paused = true)]
-async fn d14_a_credit_goes_back_when_the_next_sample_is_asked_for() {
+async fn a_credit_goes_back_when_the_next_sample_is_asked_for() {
     let response = |it| samples(it..=it);
     let script = curves(vec![header(1), response(1), response(2), response(3)], None);
     let server = FakeServer::with_curves([script]);

@@ -2,9 +2,11 @@
 
 use comfy_table::{ContentArrangement, Table, presets};
 use frontalis_client::proto::{
-    Actor, CaptureKind, FaceRegion, RegionMode, Role, Server, Session, SessionState, SessionStatus,
+    Actor, CaptureKind, ControlRange, FaceRegion, RegionMode, Role, Server, Session,
+    SessionSettings, SessionState, SessionStatus,
 };
 
+use super::trust;
 use crate::commands::short_id;
 
 /// A table with these headings.
@@ -163,11 +165,32 @@ pub fn session(session: &Session) -> String {
         }
         parts.push(subscribers.to_string());
     }
+    if !status.ranges.is_empty() {
+        parts.push(trust::ranges(&status.ranges).to_string());
+        let judged: Vec<_> = status.ranges.iter().map(judged).collect();
+        parts.extend(trust::findings(&judged));
+    }
+    if let Some(doubt) = &status.neutral_doubt {
+        let id = short_id(&session.name);
+        let advice = format!(
+            "{} (frontalis session recenter {id}, with --quietest for the quietest frames)",
+            doubt.advice
+        );
+        parts.push(trust::doubt(doubt, &advice));
+    }
     parts.join("\n")
 }
 
+fn judged(range: &ControlRange) -> trust::Judged<'_> {
+    trust::Judged {
+        muscle: &range.control,
+        verdict: range.verdict(),
+        sentence: &range.sentence,
+    }
+}
+
 fn session_facts(session: &Session, status: &SessionStatus) -> Vec<(&'static str, String)> {
-    let settings = session.settings.unwrap_or_default();
+    let settings = session.settings.clone().unwrap_or_default();
     let mut rows = vec![
         ("session", short_id(&session.name).to_owned()),
         ("display name", session.display_name.clone()),
@@ -200,6 +223,9 @@ fn session_facts(session: &Session, status: &SessionStatus) -> Vec<(&'static str
             "aligns on request",
             yes(settings.align_on_request.unwrap_or_default()),
         ),
+        ("objective", objective(&settings)),
+        ("bounds of its own", own_bounds(&settings)),
+        ("exclusive pairs", exclusive_pairs(&settings)),
         ("stale after (s)", duration(settings.stale_after)),
         (
             "publisher timeout (s)",
@@ -227,6 +253,34 @@ fn session_facts(session: &Session, status: &SessionStatus) -> Vec<(&'static str
         ));
     }
     rows
+}
+
+/// `plain`, or the terms that are on.
+fn objective(settings: &SessionSettings) -> String {
+    if settings.plain() {
+        return "plain".to_owned();
+    }
+    let strengths = [
+        ("smoothing", settings.smoothing()),
+        ("sparsity", settings.sparsity()),
+        ("symmetry", settings.symmetry()),
+    ];
+    let robust = settings.robust().then(|| "robust".to_owned());
+    let on = strengths.iter().filter(|(_, strength)| *strength > 0.0);
+    let on = on.map(|(name, strength)| format!("{name} {strength}"));
+    robust.into_iter().chain(on).collect::<Vec<_>>().join(", ")
+}
+
+fn own_bounds(settings: &SessionSettings) -> String {
+    let bounds = settings.bounds.iter();
+    let bounds = bounds.map(|it| format!("{} {}..{}", it.control, it.lower, it.upper));
+    bounds.collect::<Vec<_>>().join(", ")
+}
+
+fn exclusive_pairs(settings: &SessionSettings) -> String {
+    let pairs = settings.exclusive_pairs.iter();
+    let pairs = pairs.map(|it| format!("{} or {}", it.first, it.second));
+    pairs.collect::<Vec<_>>().join(", ")
 }
 
 /// Everything about the server, and who asks.

@@ -27,6 +27,16 @@ pub struct Timecode {
     #[prost(fixed32, tag = "9")]
     pub user_bits: u32,
 }
+impl ::prost::Name for Timecode {
+    const NAME: &'static str = "Timecode";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.Timecode".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.Timecode".into()
+    }
+}
 /// The head's own rigid motion since the neutral pose, in model space about its origin: p_now = R p_neutral + t.
 /// (The inverse of the transform that stabilizes the markers.)
 #[derive(Clone, Copy, PartialEq, ::prost::Message)]
@@ -47,6 +57,16 @@ pub struct HeadPose {
     pub ty_cm: f32,
     #[prost(float, tag = "7")]
     pub tz_cm: f32,
+}
+impl ::prost::Name for HeadPose {
+    const NAME: &'static str = "HeadPose";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.HeadPose".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.HeadPose".into()
+    }
 }
 /// Unit of the coordinates a capture system sends. Model space is always centimeters.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
@@ -188,6 +208,16 @@ pub struct Actor {
     #[prost(string, tag = "11")]
     pub muscle_set: ::prost::alloc::string::String,
 }
+impl ::prost::Name for Actor {
+    const NAME: &'static str = "Actor";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.Actor".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.Actor".into()
+    }
+}
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct Muscle {
     /// "frontalis_left"
@@ -195,6 +225,16 @@ pub struct Muscle {
     pub name: ::prost::alloc::string::String,
     #[prost(enumeration = "FaceRegion", tag = "2")]
     pub region: i32,
+}
+impl ::prost::Name for Muscle {
+    const NAME: &'static str = "Muscle";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.Muscle".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.Muscle".into()
+    }
 }
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct Marker {
@@ -206,6 +246,16 @@ pub struct Marker {
     /// rides on the skull (headband, nose bridge); used for head motion, not for muscles
     #[prost(bool, tag = "3")]
     pub head_fixed: bool,
+}
+impl ::prost::Name for Marker {
+    const NAME: &'static str = "Marker";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.Marker".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.Marker".into()
+    }
 }
 /// What can be said of a basis without a performance.
 #[derive(Clone, PartialEq, ::prost::Message)]
@@ -219,6 +269,16 @@ pub struct BasisReport {
     #[prost(message, repeated, tag = "3")]
     pub ambiguous: ::prost::alloc::vec::Vec<MusclePair>,
 }
+impl ::prost::Name for BasisReport {
+    const NAME: &'static str = "BasisReport";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.BasisReport".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.BasisReport".into()
+    }
+}
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct MusclePair {
     #[prost(string, tag = "1")]
@@ -229,6 +289,16 @@ pub struct MusclePair {
     #[prost(double, tag = "3")]
     pub correlation: f64,
 }
+impl ::prost::Name for MusclePair {
+    const NAME: &'static str = "MusclePair";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.MusclePair".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.MusclePair".into()
+    }
+}
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct ImportActorRequest {
     /// first message only
@@ -236,6 +306,16 @@ pub struct ImportActorRequest {
     pub start: ::core::option::Option<ImportActorStart>,
     #[prost(bytes = "vec", tag = "2")]
     pub chunk: ::prost::alloc::vec::Vec<u8>,
+}
+impl ::prost::Name for ImportActorRequest {
+    const NAME: &'static str = "ImportActorRequest";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.ImportActorRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.ImportActorRequest".into()
+    }
 }
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct ImportActorStart {
@@ -251,12 +331,32 @@ pub struct ImportActorStart {
     #[prost(bool, tag = "4")]
     pub regularize: bool,
 }
+impl ::prost::Name for ImportActorStart {
+    const NAME: &'static str = "ImportActorStart";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.ImportActorStart".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.ImportActorStart".into()
+    }
+}
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct ImportActorResponse {
     #[prost(message, optional, tag = "1")]
     pub actor: ::core::option::Option<Actor>,
     #[prost(string, repeated, tag = "2")]
     pub warnings: ::prost::alloc::vec::Vec<::prost::alloc::string::String>,
+}
+impl ::prost::Name for ImportActorResponse {
+    const NAME: &'static str = "ImportActorResponse";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.ImportActorResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.ImportActorResponse".into()
+    }
 }
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct ExportActorRequest {
@@ -266,20 +366,60 @@ pub struct ExportActorRequest {
     #[prost(uint32, tag = "2")]
     pub revision: u32,
 }
+impl ::prost::Name for ExportActorRequest {
+    const NAME: &'static str = "ExportActorRequest";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.ExportActorRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.ExportActorRequest".into()
+    }
+}
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct ExportActorResponse {
     #[prost(bytes = "vec", tag = "1")]
     pub chunk: ::prost::alloc::vec::Vec<u8>,
+}
+impl ::prost::Name for ExportActorResponse {
+    const NAME: &'static str = "ExportActorResponse";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.ExportActorResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.ExportActorResponse".into()
+    }
 }
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct GetActorRequest {
     #[prost(string, tag = "1")]
     pub name: ::prost::alloc::string::String,
 }
+impl ::prost::Name for GetActorRequest {
+    const NAME: &'static str = "GetActorRequest";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.GetActorRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.GetActorRequest".into()
+    }
+}
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct GetActorResponse {
     #[prost(message, optional, tag = "1")]
     pub actor: ::core::option::Option<Actor>,
+}
+impl ::prost::Name for GetActorResponse {
+    const NAME: &'static str = "GetActorResponse";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.GetActorResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.GetActorResponse".into()
+    }
 }
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct ListActorsRequest {
@@ -288,12 +428,32 @@ pub struct ListActorsRequest {
     #[prost(string, tag = "2")]
     pub page_token: ::prost::alloc::string::String,
 }
+impl ::prost::Name for ListActorsRequest {
+    const NAME: &'static str = "ListActorsRequest";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.ListActorsRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.ListActorsRequest".into()
+    }
+}
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct ListActorsResponse {
     #[prost(message, repeated, tag = "1")]
     pub actors: ::prost::alloc::vec::Vec<Actor>,
     #[prost(string, tag = "2")]
     pub next_page_token: ::prost::alloc::string::String,
+}
+impl ::prost::Name for ListActorsResponse {
+    const NAME: &'static str = "ListActorsResponse";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.ListActorsResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.ListActorsResponse".into()
+    }
 }
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct DeleteActorRequest {
@@ -303,8 +463,28 @@ pub struct DeleteActorRequest {
     #[prost(bool, tag = "2")]
     pub with_takes: bool,
 }
+impl ::prost::Name for DeleteActorRequest {
+    const NAME: &'static str = "DeleteActorRequest";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.DeleteActorRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.DeleteActorRequest".into()
+    }
+}
 #[derive(Clone, Copy, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct DeleteActorResponse {}
+impl ::prost::Name for DeleteActorResponse {
+    const NAME: &'static str = "DeleteActorResponse";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.DeleteActorResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.DeleteActorResponse".into()
+    }
+}
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct ImproveBasisRequest {
     #[prost(string, tag = "1")]
@@ -324,6 +504,16 @@ pub struct ImproveBasisRequest {
     #[prost(enumeration = "ImproveMethod", tag = "6")]
     pub method: i32,
 }
+impl ::prost::Name for ImproveBasisRequest {
+    const NAME: &'static str = "ImproveBasisRequest";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.ImproveBasisRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.ImproveBasisRequest".into()
+    }
+}
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct ImproveBasisResponse {
     #[prost(uint32, tag = "1")]
@@ -337,6 +527,16 @@ pub struct ImproveBasisResponse {
     #[prost(message, optional, tag = "4")]
     pub actor: ::core::option::Option<Actor>,
 }
+impl ::prost::Name for ImproveBasisResponse {
+    const NAME: &'static str = "ImproveBasisResponse";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.ImproveBasisResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.ImproveBasisResponse".into()
+    }
+}
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct TrainRegionsRequest {
     #[prost(string, tag = "1")]
@@ -344,6 +544,16 @@ pub struct TrainRegionsRequest {
     /// image takes, one gesture each, labelled
     #[prost(string, repeated, tag = "2")]
     pub takes: ::prost::alloc::vec::Vec<::prost::alloc::string::String>,
+}
+impl ::prost::Name for TrainRegionsRequest {
+    const NAME: &'static str = "TrainRegionsRequest";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.TrainRegionsRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.TrainRegionsRequest".into()
+    }
 }
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct TrainRegionsResponse {
@@ -356,6 +566,16 @@ pub struct TrainRegionsResponse {
     /// last response only
     #[prost(message, optional, tag = "3")]
     pub actor: ::core::option::Option<Actor>,
+}
+impl ::prost::Name for TrainRegionsResponse {
+    const NAME: &'static str = "TrainRegionsResponse";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.TrainRegionsResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.TrainRegionsResponse".into()
+    }
 }
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
 #[repr(i32)]
@@ -1186,7 +1406,13 @@ pub mod actor_service_server {
     }
 }
 /// Absent fields take the default that is written beside them; `Session.settings` returns the effective values.
-#[derive(Clone, Copy, PartialEq, ::prost::Message)]
+///
+/// `smoothing`, `sparsity`, `robust` and `symmetry` are terms beside the paper's least squares. A larger strength trusts
+/// the term more and the markers of the frame less: `smoothing` costs lag, `sparsity` and `symmetry` cost bias; what each
+/// costs at which strength stands in docs/methods.md, section 5b. `plain` switches them all off.
+/// What is outside its range, names a control that the actor does not have, or contradicts `plain` is INVALID_ARGUMENT /
+/// SOLVER_OPTIONS, and nothing changes.
+#[derive(Clone, PartialEq, ::prost::Message)]
 pub struct SessionSettings {
     /// frames registered rigidly and averaged for the alignment, 1..256; 15 (the paper: 1)
     #[prost(uint32, optional, tag = "1")]
@@ -1194,13 +1420,13 @@ pub struct SessionSettings {
     /// 0 \<= x \<= 2 instead of 0 \<= x \<= 1; false
     #[prost(bool, optional, tag = "2")]
     pub allow_exaggeration: ::core::option::Option<bool>,
-    /// 0 off .. 1; temporal prior of the solver, frame-rate independent; absent: the default solver's own
+    /// 0 off .. 1; temporal prior, the same at every frame rate: holds are smoothed, jumps pass, more lags more; 0.5
     #[prost(float, optional, tag = "3")]
     pub smoothing: ::core::option::Option<f32>,
-    /// 0 off .. 1; L1 weight relative to the noise; absent: the default solver's own
+    /// 0 off .. 1; L1 weight relative to the noise: relaxed muscles rest at 0, more keeps weak contractions there too; 0.5
     #[prost(float, optional, tag = "4")]
     pub sparsity: ::core::option::Option<f32>,
-    /// down-weight outlying markers; true
+    /// weigh outlying markers down, mask those that jump, undo swapped labels; true
     #[prost(bool, optional, tag = "5")]
     pub robust: ::core::option::Option<bool>,
     /// solve for head motion in every frame; true
@@ -1217,7 +1443,9 @@ pub struct SessionSettings {
     pub record: ::core::option::Option<bool>,
     #[prost(enumeration = "RegionMode", tag = "10")]
     pub region_mode: i32,
-    /// every added term off: the paper's objective; false
+    /// true: every term off, the paper's objective; a term that is asked for above 0 or true in the same request contradicts
+    /// it. false: terms that `plain` had switched off go back to their defaults, before the rest of the request counts.
+    /// Returned: whether no term is on. Bounds and pairs are no terms and stay. false
     #[prost(bool, optional, tag = "11")]
     pub plain: ::core::option::Option<bool>,
     /// align only when Recenter is called, not on the first frames; false
@@ -1226,6 +1454,67 @@ pub struct SessionSettings {
     /// the take that `record` starts keeps raw images; false
     #[prost(bool, optional, tag = "13")]
     pub record_images: ::core::option::Option<bool>,
+    /// 0 off .. 1; draws a muscle and its mirror image together, more hides what is one-sided; 0
+    #[prost(float, optional, tag = "14")]
+    pub symmetry: ::core::option::Option<f32>,
+    /// Controls with bounds of their own, each at most once, in place of 0 and 1 (2 with `allow_exaggeration`). Empty: none.
+    /// An update replaces the whole list when the mask names it, or without a mask when the list is not empty.
+    #[prost(message, repeated, tag = "15")]
+    pub bounds: ::prost::alloc::vec::Vec<ControlBounds>,
+    /// Pairs of which at most one control is active at a time, at most 16; each may cost two more solves a frame. Empty: none.
+    /// Updated as `bounds` are.
+    #[prost(message, repeated, tag = "16")]
+    pub exclusive_pairs: ::prost::alloc::vec::Vec<ControlPair>,
+}
+impl ::prost::Name for SessionSettings {
+    const NAME: &'static str = "SessionSettings";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.SessionSettings".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.SessionSettings".into()
+    }
+}
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct ControlBounds {
+    /// a muscle of the actor
+    #[prost(string, tag = "1")]
+    pub control: ::prost::alloc::string::String,
+    /// smallest activation, 0 \<= lower \<= upper
+    #[prost(float, tag = "2")]
+    pub lower: f32,
+    /// largest activation, at most 2
+    #[prost(float, tag = "3")]
+    pub upper: f32,
+}
+impl ::prost::Name for ControlBounds {
+    const NAME: &'static str = "ControlBounds";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.ControlBounds".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.ControlBounds".into()
+    }
+}
+/// Two muscles of the actor, neither with a lower bound above 0.
+#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct ControlPair {
+    #[prost(string, tag = "1")]
+    pub first: ::prost::alloc::string::String,
+    #[prost(string, tag = "2")]
+    pub second: ::prost::alloc::string::String,
+}
+impl ::prost::Name for ControlPair {
+    const NAME: &'static str = "ControlPair";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.ControlPair".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.ControlPair".into()
+    }
 }
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct Session {
@@ -1245,6 +1534,16 @@ pub struct Session {
     pub create_time: ::core::option::Option<crate::Timestamp>,
     #[prost(message, optional, tag = "7")]
     pub status: ::core::option::Option<SessionStatus>,
+}
+impl ::prost::Name for Session {
+    const NAME: &'static str = "Session";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.Session".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.Session".into()
+    }
 }
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct SessionStatus {
@@ -1277,7 +1576,7 @@ pub struct SessionStatus {
     pub take: ::prost::alloc::string::String,
     #[prost(uint32, tag = "13")]
     pub actor_revision: u32,
-    /// range seen per control; far beyond 0..1 says that the basis needs work
+    /// what each control went through, and what that says of its draft; at most 250 ms old
     #[prost(message, repeated, tag = "14")]
     pub ranges: ::prost::alloc::vec::Vec<ControlRange>,
     /// grows when the session starts over (created again under its id, or its unrecorded
@@ -1285,14 +1584,53 @@ pub struct SessionStatus {
     pub run: u64,
     /// samples were lost with the process); sequences count within a run
     ///
-    /// why the neutral face could not be aligned: UNITS_SUSPECT, MIRRORED, ...
+    /// why the last neutral face that was asked for could not be aligned: UNITS_SUSPECT,
     #[prost(string, tag = "16")]
     pub alignment_problem: ::prost::alloc::string::String,
+    /// MIRRORED, ...; in a live session the one before it holds on; empty: it could
     #[prost(message, optional, tag = "17")]
     pub clock: ::core::option::Option<ClockReport>,
     /// streamed, but not of this actor: recorded, not solved
     #[prost(string, repeated, tag = "18")]
     pub unknown_markers: ::prost::alloc::vec::Vec<::prost::alloc::string::String>,
+    /// absent: nothing speaks against the face that was taken as neutral
+    #[prost(message, optional, tag = "19")]
+    pub neutral_doubt: ::core::option::Option<NeutralDoubt>,
+}
+impl ::prost::Name for SessionStatus {
+    const NAME: &'static str = "SessionStatus";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.SessionStatus".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.SessionStatus".into()
+    }
+}
+/// The face that was taken as neutral probably was not.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct NeutralDoubt {
+    #[prost(enumeration = "NeutralDoubtCause", tag = "1")]
+    pub cause: i32,
+    /// root mean square distance of the neutral frames from the actor's neutral face, centimeters
+    #[prost(double, tag = "2")]
+    pub residual_cm: f64,
+    /// what it would be of a neutral face, centimeters: by the noise, or as seen in the quietest frames
+    #[prost(double, tag = "3")]
+    pub expected_cm: f64,
+    /// what to do, in plain words
+    #[prost(string, tag = "4")]
+    pub advice: ::prost::alloc::string::String,
+}
+impl ::prost::Name for NeutralDoubt {
+    const NAME: &'static str = "NeutralDoubt";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.NeutralDoubt".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.NeutralDoubt".into()
+    }
 }
 /// The publisher's capture clock as the server sees it.
 #[derive(Clone, Copy, PartialEq, ::prost::Message)]
@@ -1307,6 +1645,16 @@ pub struct ClockReport {
     #[prost(double, tag = "4")]
     pub drift_ppm: f64,
 }
+impl ::prost::Name for ClockReport {
+    const NAME: &'static str = "ClockReport";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.ClockReport".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.ClockReport".into()
+    }
+}
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct StageLatency {
     /// "queued", "solved", "published", "sent", and "total" from frame received to sample published
@@ -1314,6 +1662,16 @@ pub struct StageLatency {
     pub stage: ::prost::alloc::string::String,
     #[prost(message, optional, tag = "2")]
     pub latency: ::core::option::Option<Latency>,
+}
+impl ::prost::Name for StageLatency {
+    const NAME: &'static str = "StageLatency";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.StageLatency".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.StageLatency".into()
+    }
 }
 #[derive(Clone, Copy, PartialEq, ::prost::Message)]
 pub struct AlignmentReport {
@@ -1326,6 +1684,16 @@ pub struct AlignmentReport {
     #[prost(uint32, tag = "4")]
     pub n_markers: u32,
 }
+impl ::prost::Name for AlignmentReport {
+    const NAME: &'static str = "AlignmentReport";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.AlignmentReport".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.AlignmentReport".into()
+    }
+}
 #[derive(Clone, Copy, PartialEq, ::prost::Message)]
 pub struct Latency {
     #[prost(double, tag = "1")]
@@ -1334,6 +1702,16 @@ pub struct Latency {
     pub p99_micros: f64,
     #[prost(double, tag = "3")]
     pub max_micros: f64,
+}
+impl ::prost::Name for Latency {
+    const NAME: &'static str = "Latency";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.Latency".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.Latency".into()
+    }
 }
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct SubscriberStatus {
@@ -1349,17 +1727,73 @@ pub struct SubscriberStatus {
     #[prost(uint64, tag = "5")]
     pub lag_frames: u64,
 }
+impl ::prost::Name for SubscriberStatus {
+    const NAME: &'static str = "SubscriberStatus";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.SubscriberStatus".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.SubscriberStatus".into()
+    }
+}
+/// What one control went through (Choe & Ko 2001, section 3): far beyond 0..1 says that its shape needs work.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct ControlRange {
     #[prost(string, tag = "1")]
     pub control: ::prost::alloc::string::String,
+    /// smallest activation that was sent, since the session began
     #[prost(float, tag = "2")]
     pub min: f32,
+    /// largest
     #[prost(float, tag = "3")]
     pub max: f32,
-    /// Fraction of frames in which the unbounded solution lay outside \[-0.1, 1.1\].
+    /// Fraction of the `n_frames` in which the unbounded solution lay outside \[-0.1, 1.1\].
     #[prost(float, tag = "4")]
     pub out_of_range: f32,
+    /// frames behind the figures around it, since the alignment; 0: none yet
+    #[prost(uint64, tag = "5")]
+    pub n_frames: u64,
+    /// of the activations as they were sent; absent with `n_frames` 0
+    #[prost(message, optional, tag = "6")]
+    pub bounded: ::core::option::Option<Percentiles>,
+    /// of the least-squares solution without bounds, of the same frames
+    #[prost(message, optional, tag = "7")]
+    pub unbounded: ::core::option::Option<Percentiles>,
+    #[prost(enumeration = "RangeVerdict", tag = "8")]
+    pub verdict: i32,
+    /// what the verdict says to the artist, in plain words
+    #[prost(string, tag = "9")]
+    pub sentence: ::prost::alloc::string::String,
+}
+impl ::prost::Name for ControlRange {
+    const NAME: &'static str = "ControlRange";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.ControlRange".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.ControlRange".into()
+    }
+}
+#[derive(Clone, Copy, PartialEq, ::prost::Message)]
+pub struct Percentiles {
+    /// below it lies 1 % of the values
+    #[prost(float, tag = "1")]
+    pub p1: f32,
+    /// above it lies 1 % of the values
+    #[prost(float, tag = "2")]
+    pub p99: f32,
+}
+impl ::prost::Name for Percentiles {
+    const NAME: &'static str = "Percentiles";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.Percentiles".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.Percentiles".into()
+    }
 }
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct CreateSessionRequest {
@@ -1376,20 +1810,60 @@ pub struct CreateSessionRequest {
     #[prost(string, tag = "5")]
     pub display_name: ::prost::alloc::string::String,
 }
+impl ::prost::Name for CreateSessionRequest {
+    const NAME: &'static str = "CreateSessionRequest";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.CreateSessionRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.CreateSessionRequest".into()
+    }
+}
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct CreateSessionResponse {
     #[prost(message, optional, tag = "1")]
     pub session: ::core::option::Option<Session>,
+}
+impl ::prost::Name for CreateSessionResponse {
+    const NAME: &'static str = "CreateSessionResponse";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.CreateSessionResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.CreateSessionResponse".into()
+    }
 }
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct GetSessionRequest {
     #[prost(string, tag = "1")]
     pub name: ::prost::alloc::string::String,
 }
+impl ::prost::Name for GetSessionRequest {
+    const NAME: &'static str = "GetSessionRequest";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.GetSessionRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.GetSessionRequest".into()
+    }
+}
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct GetSessionResponse {
     #[prost(message, optional, tag = "1")]
     pub session: ::core::option::Option<Session>,
+}
+impl ::prost::Name for GetSessionResponse {
+    const NAME: &'static str = "GetSessionResponse";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.GetSessionResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.GetSessionResponse".into()
+    }
 }
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct ListSessionsRequest {
@@ -1398,12 +1872,32 @@ pub struct ListSessionsRequest {
     #[prost(string, tag = "2")]
     pub page_token: ::prost::alloc::string::String,
 }
+impl ::prost::Name for ListSessionsRequest {
+    const NAME: &'static str = "ListSessionsRequest";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.ListSessionsRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.ListSessionsRequest".into()
+    }
+}
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct ListSessionsResponse {
     #[prost(message, repeated, tag = "1")]
     pub sessions: ::prost::alloc::vec::Vec<Session>,
     #[prost(string, tag = "2")]
     pub next_page_token: ::prost::alloc::string::String,
+}
+impl ::prost::Name for ListSessionsResponse {
+    const NAME: &'static str = "ListSessionsResponse";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.ListSessionsResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.ListSessionsResponse".into()
+    }
 }
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct UpdateSessionRequest {
@@ -1418,30 +1912,92 @@ pub struct UpdateSessionRequest {
     #[prost(message, optional, tag = "4")]
     pub update_mask: ::core::option::Option<crate::FieldMask>,
 }
+impl ::prost::Name for UpdateSessionRequest {
+    const NAME: &'static str = "UpdateSessionRequest";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.UpdateSessionRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.UpdateSessionRequest".into()
+    }
+}
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct UpdateSessionResponse {
     #[prost(message, optional, tag = "1")]
     pub session: ::core::option::Option<Session>,
 }
+impl ::prost::Name for UpdateSessionResponse {
+    const NAME: &'static str = "UpdateSessionResponse";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.UpdateSessionResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.UpdateSessionResponse".into()
+    }
+}
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct RecenterSessionRequest {
     #[prost(string, tag = "1")]
     pub name: ::prost::alloc::string::String,
+    #[prost(enumeration = "NeutralSource", tag = "2")]
+    pub source: i32,
+}
+impl ::prost::Name for RecenterSessionRequest {
+    const NAME: &'static str = "RecenterSessionRequest";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.RecenterSessionRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.RecenterSessionRequest".into()
+    }
 }
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct RecenterSessionResponse {
     #[prost(message, optional, tag = "1")]
     pub session: ::core::option::Option<Session>,
 }
+impl ::prost::Name for RecenterSessionResponse {
+    const NAME: &'static str = "RecenterSessionResponse";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.RecenterSessionResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.RecenterSessionResponse".into()
+    }
+}
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct EndSessionRequest {
     #[prost(string, tag = "1")]
     pub name: ::prost::alloc::string::String,
 }
+impl ::prost::Name for EndSessionRequest {
+    const NAME: &'static str = "EndSessionRequest";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.EndSessionRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.EndSessionRequest".into()
+    }
+}
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct EndSessionResponse {
     #[prost(message, optional, tag = "1")]
     pub session: ::core::option::Option<Session>,
+}
+impl ::prost::Name for EndSessionResponse {
+    const NAME: &'static str = "EndSessionResponse";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.EndSessionResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.EndSessionResponse".into()
+    }
 }
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
 #[repr(i32)]
@@ -1501,6 +2057,120 @@ impl RegionMode {
             "REGION_MODE_UNSPECIFIED" => Some(Self::Unspecified),
             "REGION_MODE_JOINT" => Some(Self::Joint),
             "REGION_MODE_SPLIT" => Some(Self::Split),
+            _ => None,
+        }
+    }
+}
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
+#[repr(i32)]
+pub enum NeutralDoubtCause {
+    Unspecified = 0,
+    /// contractions explain what the neutral frames leave, far beyond their noise
+    LooksContracted = 1,
+    /// later frames fit the neutral face clearly better than those that were taken
+    QuieterFramesSeen = 2,
+}
+impl NeutralDoubtCause {
+    /// String value of the enum field names used in the ProtoBuf definition.
+    ///
+    /// The values are not transformed in any way and thus are considered stable
+    /// (if the ProtoBuf definition does not change) and safe for programmatic use.
+    pub fn as_str_name(&self) -> &'static str {
+        match self {
+            Self::Unspecified => "NEUTRAL_DOUBT_CAUSE_UNSPECIFIED",
+            Self::LooksContracted => "NEUTRAL_DOUBT_CAUSE_LOOKS_CONTRACTED",
+            Self::QuieterFramesSeen => "NEUTRAL_DOUBT_CAUSE_QUIETER_FRAMES_SEEN",
+        }
+    }
+    /// Creates an enum from field names used in the ProtoBuf definition.
+    pub fn from_str_name(value: &str) -> ::core::option::Option<Self> {
+        match value {
+            "NEUTRAL_DOUBT_CAUSE_UNSPECIFIED" => Some(Self::Unspecified),
+            "NEUTRAL_DOUBT_CAUSE_LOOKS_CONTRACTED" => Some(Self::LooksContracted),
+            "NEUTRAL_DOUBT_CAUSE_QUIETER_FRAMES_SEEN" => Some(Self::QuieterFramesSeen),
+            _ => None,
+        }
+    }
+}
+/// A muscle's draft, judged by the performance so far.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
+#[repr(i32)]
+pub enum RangeVerdict {
+    /// not sent
+    Unspecified = 0,
+    /// too little was seen of it to say
+    NotYetSeen = 1,
+    /// nothing speaks against it
+    Sound = 2,
+    /// full contractions move the markers further than the draft does
+    TooWeak = 3,
+    /// its own contractions never come near 1
+    TooStrong = 4,
+    /// the markers move against it
+    WrongDirection = 5,
+    /// the markers hardly tell it from noise or from other muscles
+    HardlyObservable = 6,
+}
+impl RangeVerdict {
+    /// String value of the enum field names used in the ProtoBuf definition.
+    ///
+    /// The values are not transformed in any way and thus are considered stable
+    /// (if the ProtoBuf definition does not change) and safe for programmatic use.
+    pub fn as_str_name(&self) -> &'static str {
+        match self {
+            Self::Unspecified => "RANGE_VERDICT_UNSPECIFIED",
+            Self::NotYetSeen => "RANGE_VERDICT_NOT_YET_SEEN",
+            Self::Sound => "RANGE_VERDICT_SOUND",
+            Self::TooWeak => "RANGE_VERDICT_TOO_WEAK",
+            Self::TooStrong => "RANGE_VERDICT_TOO_STRONG",
+            Self::WrongDirection => "RANGE_VERDICT_WRONG_DIRECTION",
+            Self::HardlyObservable => "RANGE_VERDICT_HARDLY_OBSERVABLE",
+        }
+    }
+    /// Creates an enum from field names used in the ProtoBuf definition.
+    pub fn from_str_name(value: &str) -> ::core::option::Option<Self> {
+        match value {
+            "RANGE_VERDICT_UNSPECIFIED" => Some(Self::Unspecified),
+            "RANGE_VERDICT_NOT_YET_SEEN" => Some(Self::NotYetSeen),
+            "RANGE_VERDICT_SOUND" => Some(Self::Sound),
+            "RANGE_VERDICT_TOO_WEAK" => Some(Self::TooWeak),
+            "RANGE_VERDICT_TOO_STRONG" => Some(Self::TooStrong),
+            "RANGE_VERDICT_WRONG_DIRECTION" => Some(Self::WrongDirection),
+            "RANGE_VERDICT_HARDLY_OBSERVABLE" => Some(Self::HardlyObservable),
+            _ => None,
+        }
+    }
+}
+/// Where a new neutral face comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
+#[repr(i32)]
+pub enum NeutralSource {
+    /// treated as NEUTRAL_SOURCE_NEXT_FRAMES
+    Unspecified = 0,
+    /// the next `neutral_frames` usable frames
+    NextFrames = 1,
+    /// The quietest frames seen since the alignment, at once. FAILED_PRECONDITION / NOT_ALIGNED before there is one,
+    /// QUIETEST_FRAMES while too few were seen, or the reason for which they cannot be aligned; then nothing changes.
+    QuietestFrames = 2,
+}
+impl NeutralSource {
+    /// String value of the enum field names used in the ProtoBuf definition.
+    ///
+    /// The values are not transformed in any way and thus are considered stable
+    /// (if the ProtoBuf definition does not change) and safe for programmatic use.
+    pub fn as_str_name(&self) -> &'static str {
+        match self {
+            Self::Unspecified => "NEUTRAL_SOURCE_UNSPECIFIED",
+            Self::NextFrames => "NEUTRAL_SOURCE_NEXT_FRAMES",
+            Self::QuietestFrames => "NEUTRAL_SOURCE_QUIETEST_FRAMES",
+        }
+    }
+    /// Creates an enum from field names used in the ProtoBuf definition.
+    pub fn from_str_name(value: &str) -> ::core::option::Option<Self> {
+        match value {
+            "NEUTRAL_SOURCE_UNSPECIFIED" => Some(Self::Unspecified),
+            "NEUTRAL_SOURCE_NEXT_FRAMES" => Some(Self::NextFrames),
+            "NEUTRAL_SOURCE_QUIETEST_FRAMES" => Some(Self::QuietestFrames),
             _ => None,
         }
     }
@@ -1693,7 +2363,9 @@ pub mod session_service_client {
                 .insert(GrpcMethod::new("frontalis.v1.SessionService", "UpdateSession"));
             self.inner.unary(req, path, codec).await
         }
-        /// Takes the next usable frames as the neutral face again: alignment and displacement start over from them.
+        /// Takes another neutral face: the next usable frames, or the quietest that were seen. A session that has an alignment
+        /// goes on with it until the new one is known: it stays live, every frame gives its sample, and when the new face cannot
+        /// be aligned the old one holds on and `SessionStatus.alignment_problem` says why.
         pub async fn recenter_session(
             &mut self,
             request: impl tonic::IntoRequest<super::RecenterSessionRequest>,
@@ -1789,7 +2461,9 @@ pub mod session_service_server {
             tonic::Response<super::UpdateSessionResponse>,
             tonic::Status,
         >;
-        /// Takes the next usable frames as the neutral face again: alignment and displacement start over from them.
+        /// Takes another neutral face: the next usable frames, or the quietest that were seen. A session that has an alignment
+        /// goes on with it until the new one is known: it stays live, every frame gives its sample, and when the new face cannot
+        /// be aligned the old one holds on and `SessionStatus.alignment_problem` says why.
         async fn recenter_session(
             &self,
             request: tonic::Request<super::RecenterSessionRequest>,
@@ -2220,6 +2894,16 @@ pub struct PublishStart {
     #[prost(double, tag = "8")]
     pub rate_hz: f64,
 }
+impl ::prost::Name for PublishStart {
+    const NAME: &'static str = "PublishStart";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.PublishStart".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.PublishStart".into()
+    }
+}
 #[derive(Clone, Copy, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct ImageFormat {
     #[prost(enumeration = "ImageEncoding", tag = "1")]
@@ -2231,6 +2915,16 @@ pub struct ImageFormat {
     #[prost(uint32, tag = "3")]
     pub height: u32,
 }
+impl ::prost::Name for ImageFormat {
+    const NAME: &'static str = "ImageFormat";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.ImageFormat".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.ImageFormat".into()
+    }
+}
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct PublishMarkersRequest {
     /// first message only
@@ -2241,6 +2935,16 @@ pub struct PublishMarkersRequest {
     pub frames: ::prost::alloc::vec::Vec<MarkerFrame>,
     #[prost(message, optional, tag = "3")]
     pub clock: ::core::option::Option<ClockEcho>,
+}
+impl ::prost::Name for PublishMarkersRequest {
+    const NAME: &'static str = "PublishMarkersRequest";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.PublishMarkersRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.PublishMarkersRequest".into()
+    }
 }
 /// The client's half of a clock exchange: with it the server estimates offset and drift of the capture clock.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, ::prost::Message)]
@@ -2254,6 +2958,16 @@ pub struct ClockEcho {
     /// when this message left, capture clock
     #[prost(sfixed64, tag = "3")]
     pub client_send_nanos: i64,
+}
+impl ::prost::Name for ClockEcho {
+    const NAME: &'static str = "ClockEcho";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.ClockEcho".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.ClockEcho".into()
+    }
 }
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct MarkerFrame {
@@ -2278,6 +2992,16 @@ pub struct MarkerFrame {
     #[prost(fixed32, optional, tag = "6")]
     pub crc32c: ::core::option::Option<u32>,
 }
+impl ::prost::Name for MarkerFrame {
+    const NAME: &'static str = "MarkerFrame";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.MarkerFrame".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.MarkerFrame".into()
+    }
+}
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct PublishImagesRequest {
     #[prost(message, optional, tag = "1")]
@@ -2287,6 +3011,16 @@ pub struct PublishImagesRequest {
     pub frames: ::prost::alloc::vec::Vec<ImageFrame>,
     #[prost(message, optional, tag = "3")]
     pub clock: ::core::option::Option<ClockEcho>,
+}
+impl ::prost::Name for PublishImagesRequest {
+    const NAME: &'static str = "PublishImagesRequest";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.PublishImagesRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.PublishImagesRequest".into()
+    }
 }
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct ImageFrame {
@@ -2304,6 +3038,16 @@ pub struct ImageFrame {
     /// of `data`
     #[prost(fixed32, optional, tag = "6")]
     pub crc32c: ::core::option::Option<u32>,
+}
+impl ::prost::Name for ImageFrame {
+    const NAME: &'static str = "ImageFrame";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.ImageFrame".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.ImageFrame".into()
+    }
 }
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct PublishResponse {
@@ -2328,6 +3072,16 @@ pub struct PublishResponse {
     #[prost(bool, tag = "7")]
     pub recording: bool,
 }
+impl ::prost::Name for PublishResponse {
+    const NAME: &'static str = "PublishResponse";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.PublishResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.PublishResponse".into()
+    }
+}
 #[derive(Clone, Copy, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct PublishStarted {
     /// number of this grant; grows with every grant, across restarts too
@@ -2341,6 +3095,16 @@ pub struct PublishStarted {
     #[prost(uint64, tag = "4")]
     pub run: u64,
 }
+impl ::prost::Name for PublishStarted {
+    const NAME: &'static str = "PublishStarted";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.PublishStarted".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.PublishStarted".into()
+    }
+}
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct RejectedFrame {
     #[prost(uint64, tag = "1")]
@@ -2351,6 +3115,16 @@ pub struct RejectedFrame {
     /// "marker 12 (corner_left): x is infinite"
     #[prost(string, tag = "3")]
     pub detail: ::prost::alloc::string::String,
+}
+impl ::prost::Name for RejectedFrame {
+    const NAME: &'static str = "RejectedFrame";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.RejectedFrame".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.RejectedFrame".into()
+    }
 }
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
 #[repr(i32)]
@@ -2442,7 +3216,8 @@ pub mod capture_service_client {
     /// or 50 ms, whichever is first.
     /// A frame that cannot be used (an infinite coordinate, a wrong length) is answered by `rejected` and does not end the
     /// stream; a broken contract (unknown session, message without `start`, 100 rejected frames in a row) ends it. A neutral
-    /// face that cannot be aligned ends it too, with the reason, and the session waits for better frames.
+    /// face that cannot be aligned while there is no other ends it too, with the reason, and the session waits for better
+    /// frames.
     /// A message without frames keeps the stream alive. Closing the request side ends the publication: the last watermarks
     /// follow, and the session is free for another publisher at once.
     /// One publisher owns a session. The same `publisher` id reconnecting replaces its own older stream at once. Another id is
@@ -2639,7 +3414,8 @@ pub mod capture_service_server {
     /// or 50 ms, whichever is first.
     /// A frame that cannot be used (an infinite coordinate, a wrong length) is answered by `rejected` and does not end the
     /// stream; a broken contract (unknown session, message without `start`, 100 rejected frames in a row) ends it. A neutral
-    /// face that cannot be aligned ends it too, with the reason, and the session waits for better frames.
+    /// face that cannot be aligned while there is no other ends it too, with the reason, and the session waits for better
+    /// frames.
     /// A message without frames keeps the stream alive. Closing the request side ends the publication: the last watermarks
     /// follow, and the session is free for another publisher at once.
     /// One publisher owns a session. The same `publisher` id reconnecting replaces its own older stream at once. Another id is
@@ -2880,6 +3656,16 @@ pub struct ReadCurvesRequest {
     #[prost(bool, tag = "6")]
     pub with_markers: bool,
 }
+impl ::prost::Name for ReadCurvesRequest {
+    const NAME: &'static str = "ReadCurvesRequest";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.ReadCurvesRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.ReadCurvesRequest".into()
+    }
+}
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct ReadCurvesResponse {
     #[prost(message, optional, tag = "1")]
@@ -2897,6 +3683,16 @@ pub struct ReadCurvesResponse {
     #[prost(message, optional, tag = "6")]
     pub state: ::core::option::Option<StreamState>,
 }
+impl ::prost::Name for ReadCurvesResponse {
+    const NAME: &'static str = "ReadCurvesResponse";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.ReadCurvesResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.ReadCurvesResponse".into()
+    }
+}
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct SubscribeRequest {
     /// first message only
@@ -2905,6 +3701,16 @@ pub struct SubscribeRequest {
     /// later messages: this many more samples may be sent; 0 changes nothing
     #[prost(uint32, tag = "2")]
     pub credits: u32,
+}
+impl ::prost::Name for SubscribeRequest {
+    const NAME: &'static str = "SubscribeRequest";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.SubscribeRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.SubscribeRequest".into()
+    }
 }
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct SubscribeStart {
@@ -2925,7 +3731,7 @@ pub struct SubscribeStart {
     pub from_sequence: u64,
     #[prost(enumeration = "ControlSpace", tag = "6")]
     pub control_space: i32,
-    /// DELIVERY_LATEST; 0: every frame with credits, 30 without
+    /// DELIVERY_LATEST, 0 to 1,000,000; 0: every frame with credits, 30 without
     #[prost(float, tag = "7")]
     pub max_rate_hz: f32,
     /// fill CurveSample.standard_errors
@@ -2940,6 +3746,16 @@ pub struct SubscribeStart {
     /// fill observed_cm and reproduced_cm
     #[prost(bool, tag = "11")]
     pub with_markers: bool,
+}
+impl ::prost::Name for SubscribeStart {
+    const NAME: &'static str = "SubscribeStart";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.SubscribeStart".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.SubscribeStart".into()
+    }
 }
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct SubscribeResponse {
@@ -2962,6 +3778,16 @@ pub struct SubscribeResponse {
     #[prost(message, optional, tag = "6")]
     pub end: ::core::option::Option<CurveEnd>,
 }
+impl ::prost::Name for SubscribeResponse {
+    const NAME: &'static str = "SubscribeResponse";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.SubscribeResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.SubscribeResponse".into()
+    }
+}
 /// Frame numbers from first to last, both included, that gave no sample.
 #[derive(Clone, Copy, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct Gap {
@@ -2972,12 +3798,32 @@ pub struct Gap {
     #[prost(enumeration = "GapCause", tag = "3")]
     pub cause: i32,
 }
+impl ::prost::Name for Gap {
+    const NAME: &'static str = "Gap";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.Gap".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.Gap".into()
+    }
+}
 #[derive(Clone, Copy, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct StreamState {
     #[prost(enumeration = "SessionState", tag = "1")]
     pub session_state: i32,
     #[prost(uint64, tag = "2")]
     pub last_frame_age_micros: u64,
+}
+impl ::prost::Name for StreamState {
+    const NAME: &'static str = "StreamState";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.StreamState".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.StreamState".into()
+    }
 }
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct CurveHeader {
@@ -3007,6 +3853,16 @@ pub struct CurveHeader {
     #[prost(sfixed64, tag = "9")]
     pub unix_offset_nanos: i64,
 }
+impl ::prost::Name for CurveHeader {
+    const NAME: &'static str = "CurveHeader";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.CurveHeader".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.CurveHeader".into()
+    }
+}
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct Control {
     /// "zygomatic_major_left", "AU12", "mouthSmileLeft"
@@ -3017,11 +3873,22 @@ pub struct Control {
     /// false: the session cannot observe it; its value stays 0
     #[prost(bool, tag = "3")]
     pub driven: bool,
-    /// bounds of the activation, finite: upper is 2 when exaggeration is allowed
+    /// bounds of the activation at the time of subscription, finite: `SessionSettings.bounds`, else 0
     #[prost(float, tag = "4")]
     pub lower: f32,
+    /// and 1, or 2 when exaggeration is allowed
     #[prost(float, tag = "5")]
     pub upper: f32,
+}
+impl ::prost::Name for Control {
+    const NAME: &'static str = "Control";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.Control".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.Control".into()
+    }
 }
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct CurveSample {
@@ -3034,7 +3901,9 @@ pub struct CurveSample {
     /// in header order; 0 relaxed, 1 fully contracted
     #[prost(float, repeated, tag = "4")]
     pub activations: ::prost::alloc::vec::Vec<f32>,
-    /// one sigma of each activation, when asked for
+    /// One sigma of each activation, in header order, when `with_uncertainty` asked for it: from the frame's evidence, the
+    /// terms of the objective and the noise seen lately. Finite; of a held or unobserved control what it was when it was last
+    /// seen, or more.
     #[prost(float, repeated, tag = "5")]
     pub standard_errors: ::prost::alloc::vec::Vec<f32>,
     #[prost(message, repeated, tag = "6")]
@@ -3079,6 +3948,19 @@ pub struct CurveSample {
     /// those seen in this frame, indices into Actor.markers
     #[prost(uint32, repeated, tag = "20")]
     pub observed_markers: ::prost::alloc::vec::Vec<u32>,
+    /// those seen and masked, because they lie far from what the others say, likewise
+    #[prost(uint32, repeated, tag = "21")]
+    pub outlier_markers: ::prost::alloc::vec::Vec<u32>,
+}
+impl ::prost::Name for CurveSample {
+    const NAME: &'static str = "CurveSample";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.CurveSample".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.CurveSample".into()
+    }
 }
 /// Per-frame marker error (sum over markers of |observed - reproduced|) / n, Choe & Ko 2001, section 5.
 #[derive(Clone, PartialEq, ::prost::Message)]
@@ -3099,6 +3981,16 @@ pub struct RegionError {
     #[prost(float, tag = "6")]
     pub quality_fraction: f32,
 }
+impl ::prost::Name for RegionError {
+    const NAME: &'static str = "RegionError";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.RegionError".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.RegionError".into()
+    }
+}
 /// State of one co-articulation region, Fidaleo & Neumann 2004.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct CoarticulationState {
@@ -3115,12 +4007,32 @@ pub struct CoarticulationState {
     #[prost(float, tag = "4")]
     pub distance: f32,
 }
+impl ::prost::Name for CoarticulationState {
+    const NAME: &'static str = "CoarticulationState";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.CoarticulationState".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.CoarticulationState".into()
+    }
+}
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct CurveEnd {
     #[prost(string, tag = "1")]
     pub reason: ::prost::alloc::string::String,
     #[prost(uint64, tag = "2")]
     pub last_frame: u64,
+}
+impl ::prost::Name for CurveEnd {
+    const NAME: &'static str = "CurveEnd";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.CurveEnd".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.CurveEnd".into()
+    }
 }
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
 #[repr(i32)]
@@ -3273,9 +4185,9 @@ impl Quality {
 #[repr(i32)]
 pub enum SampleFlag {
     Unspecified = 0,
-    /// at least one marker was weighed down or masked
+    /// `outlier_markers` names at least one
     Outlier = 1,
-    /// two markers were swapped back
+    /// the labels of two markers were swapped, and have been put right
     Relabeled = 2,
     TimeNonMonotonic = 3,
     TimecodeInvalid = 4,
@@ -3853,6 +4765,16 @@ pub struct Take {
     #[prost(bool, tag = "19")]
     pub with_images: bool,
 }
+impl ::prost::Name for Take {
+    const NAME: &'static str = "Take";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.Take".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.Take".into()
+    }
+}
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct StartTakeRequest {
     #[prost(string, tag = "1")]
@@ -3871,30 +4793,90 @@ pub struct StartTakeRequest {
     #[prost(message, optional, tag = "6")]
     pub pre_roll: ::core::option::Option<::pbjson_types::Duration>,
 }
+impl ::prost::Name for StartTakeRequest {
+    const NAME: &'static str = "StartTakeRequest";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.StartTakeRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.StartTakeRequest".into()
+    }
+}
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct StartTakeResponse {
     #[prost(message, optional, tag = "1")]
     pub take: ::core::option::Option<Take>,
+}
+impl ::prost::Name for StartTakeResponse {
+    const NAME: &'static str = "StartTakeResponse";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.StartTakeResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.StartTakeResponse".into()
+    }
 }
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct StopTakeRequest {
     #[prost(string, tag = "1")]
     pub name: ::prost::alloc::string::String,
 }
+impl ::prost::Name for StopTakeRequest {
+    const NAME: &'static str = "StopTakeRequest";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.StopTakeRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.StopTakeRequest".into()
+    }
+}
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct StopTakeResponse {
     #[prost(message, optional, tag = "1")]
     pub take: ::core::option::Option<Take>,
+}
+impl ::prost::Name for StopTakeResponse {
+    const NAME: &'static str = "StopTakeResponse";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.StopTakeResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.StopTakeResponse".into()
+    }
 }
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct GetTakeRequest {
     #[prost(string, tag = "1")]
     pub name: ::prost::alloc::string::String,
 }
+impl ::prost::Name for GetTakeRequest {
+    const NAME: &'static str = "GetTakeRequest";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.GetTakeRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.GetTakeRequest".into()
+    }
+}
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct GetTakeResponse {
     #[prost(message, optional, tag = "1")]
     pub take: ::core::option::Option<Take>,
+}
+impl ::prost::Name for GetTakeResponse {
+    const NAME: &'static str = "GetTakeResponse";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.GetTakeResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.GetTakeResponse".into()
+    }
 }
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct ListTakesRequest {
@@ -3910,6 +4892,16 @@ pub struct ListTakesRequest {
     #[prost(string, tag = "5")]
     pub slate: ::prost::alloc::string::String,
 }
+impl ::prost::Name for ListTakesRequest {
+    const NAME: &'static str = "ListTakesRequest";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.ListTakesRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.ListTakesRequest".into()
+    }
+}
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct UpdateTakeRequest {
     #[prost(message, optional, tag = "1")]
@@ -3917,10 +4909,30 @@ pub struct UpdateTakeRequest {
     #[prost(message, optional, tag = "2")]
     pub update_mask: ::core::option::Option<crate::FieldMask>,
 }
+impl ::prost::Name for UpdateTakeRequest {
+    const NAME: &'static str = "UpdateTakeRequest";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.UpdateTakeRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.UpdateTakeRequest".into()
+    }
+}
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct UpdateTakeResponse {
     #[prost(message, optional, tag = "1")]
     pub take: ::core::option::Option<Take>,
+}
+impl ::prost::Name for UpdateTakeResponse {
+    const NAME: &'static str = "UpdateTakeResponse";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.UpdateTakeResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.UpdateTakeResponse".into()
+    }
 }
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct ListTakesResponse {
@@ -3929,13 +4941,43 @@ pub struct ListTakesResponse {
     #[prost(string, tag = "2")]
     pub next_page_token: ::prost::alloc::string::String,
 }
+impl ::prost::Name for ListTakesResponse {
+    const NAME: &'static str = "ListTakesResponse";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.ListTakesResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.ListTakesResponse".into()
+    }
+}
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct DeleteTakeRequest {
     #[prost(string, tag = "1")]
     pub name: ::prost::alloc::string::String,
 }
+impl ::prost::Name for DeleteTakeRequest {
+    const NAME: &'static str = "DeleteTakeRequest";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.DeleteTakeRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.DeleteTakeRequest".into()
+    }
+}
 #[derive(Clone, Copy, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct DeleteTakeResponse {}
+impl ::prost::Name for DeleteTakeResponse {
+    const NAME: &'static str = "DeleteTakeResponse";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.DeleteTakeResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.DeleteTakeResponse".into()
+    }
+}
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct ExportTakeRequest {
     #[prost(string, tag = "1")]
@@ -3943,10 +4985,30 @@ pub struct ExportTakeRequest {
     #[prost(enumeration = "TakeFormat", tag = "2")]
     pub format: i32,
 }
+impl ::prost::Name for ExportTakeRequest {
+    const NAME: &'static str = "ExportTakeRequest";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.ExportTakeRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.ExportTakeRequest".into()
+    }
+}
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct ExportTakeResponse {
     #[prost(bytes = "vec", tag = "1")]
     pub chunk: ::prost::alloc::vec::Vec<u8>,
+}
+impl ::prost::Name for ExportTakeResponse {
+    const NAME: &'static str = "ExportTakeResponse";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.ExportTakeResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.ExportTakeResponse".into()
+    }
 }
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct ResolveTakeRequest {
@@ -3959,6 +5021,16 @@ pub struct ResolveTakeRequest {
     #[prost(message, optional, tag = "3")]
     pub settings: ::core::option::Option<SessionSettings>,
 }
+impl ::prost::Name for ResolveTakeRequest {
+    const NAME: &'static str = "ResolveTakeRequest";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.ResolveTakeRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.ResolveTakeRequest".into()
+    }
+}
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct ResolveTakeResponse {
     #[prost(uint64, tag = "1")]
@@ -3968,6 +5040,16 @@ pub struct ResolveTakeResponse {
     /// last response only
     #[prost(message, optional, tag = "3")]
     pub take: ::core::option::Option<Take>,
+}
+impl ::prost::Name for ResolveTakeResponse {
+    const NAME: &'static str = "ResolveTakeResponse";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.ResolveTakeResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.ResolveTakeResponse".into()
+    }
 }
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
 #[repr(i32)]
@@ -4926,6 +6008,16 @@ pub struct Server {
     #[prost(message, optional, tag = "7")]
     pub caller: ::core::option::Option<Principal>,
 }
+impl ::prost::Name for Server {
+    const NAME: &'static str = "Server";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.Server".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.Server".into()
+    }
+}
 /// Who calls, as the token or the certificate says.
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct Principal {
@@ -4941,18 +6033,49 @@ pub struct Principal {
     #[prost(message, optional, tag = "4")]
     pub expire_time: ::core::option::Option<crate::Timestamp>,
 }
+impl ::prost::Name for Principal {
+    const NAME: &'static str = "Principal";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.Principal".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.Principal".into()
+    }
+}
 #[derive(Clone, Copy, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct GetServerRequest {}
+impl ::prost::Name for GetServerRequest {
+    const NAME: &'static str = "GetServerRequest";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.GetServerRequest".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.GetServerRequest".into()
+    }
+}
 #[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
 pub struct GetServerResponse {
     #[prost(message, optional, tag = "1")]
     pub server: ::core::option::Option<Server>,
 }
+impl ::prost::Name for GetServerResponse {
+    const NAME: &'static str = "GetServerResponse";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.GetServerResponse".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.GetServerResponse".into()
+    }
+}
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
 #[repr(i32)]
 pub enum Role {
     Unspecified = 0,
-    /// everything
+    /// Everything with every session, actor and take, except that it publishes only with `PublishStart.takeover`: frames
+    /// that do not take a session over are refused with PERMISSION_DENIED / ROLE, and so are images.
     Operator = 1,
     /// its own sessions: create, publish, calibrate, subscribe, end
     Publisher = 2,

@@ -1241,6 +1241,243 @@ impl<'de> serde::Deserialize<'de> for Control {
         deserializer.deserialize_struct("frontalis.v1.Control", FIELDS, GeneratedVisitor)
     }
 }
+impl serde::Serialize for ControlBounds {
+    #[allow(deprecated)]
+    fn serialize<S>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error>
+    where
+        S: serde::Serializer,
+    {
+        use serde::ser::SerializeStruct;
+        let mut len = 0;
+        if !self.control.is_empty() {
+            len += 1;
+        }
+        if self.lower != 0. {
+            len += 1;
+        }
+        if self.upper != 0. {
+            len += 1;
+        }
+        let mut struct_ser = serializer.serialize_struct("frontalis.v1.ControlBounds", len)?;
+        if !self.control.is_empty() {
+            struct_ser.serialize_field("control", &self.control)?;
+        }
+        if self.lower != 0. {
+            struct_ser.serialize_field("lower", &self.lower)?;
+        }
+        if self.upper != 0. {
+            struct_ser.serialize_field("upper", &self.upper)?;
+        }
+        struct_ser.end()
+    }
+}
+impl<'de> serde::Deserialize<'de> for ControlBounds {
+    #[allow(deprecated)]
+    fn deserialize<D>(deserializer: D) -> std::result::Result<Self, D::Error>
+    where
+        D: serde::Deserializer<'de>,
+    {
+        const FIELDS: &[&str] = &[
+            "control",
+            "lower",
+            "upper",
+        ];
+
+        #[allow(clippy::enum_variant_names)]
+        enum GeneratedField {
+            Control,
+            Lower,
+            Upper,
+        }
+        impl<'de> serde::Deserialize<'de> for GeneratedField {
+            fn deserialize<D>(deserializer: D) -> std::result::Result<GeneratedField, D::Error>
+            where
+                D: serde::Deserializer<'de>,
+            {
+                struct GeneratedVisitor;
+
+                impl serde::de::Visitor<'_> for GeneratedVisitor {
+                    type Value = GeneratedField;
+
+                    fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                        write!(formatter, "expected one of: {:?}", &FIELDS)
+                    }
+
+                    #[allow(unused_variables)]
+                    fn visit_str<E>(self, value: &str) -> std::result::Result<GeneratedField, E>
+                    where
+                        E: serde::de::Error,
+                    {
+                        match value {
+                            "control" => Ok(GeneratedField::Control),
+                            "lower" => Ok(GeneratedField::Lower),
+                            "upper" => Ok(GeneratedField::Upper),
+                            _ => Err(serde::de::Error::unknown_field(value, FIELDS)),
+                        }
+                    }
+                }
+                deserializer.deserialize_identifier(GeneratedVisitor)
+            }
+        }
+        struct GeneratedVisitor;
+        impl<'de> serde::de::Visitor<'de> for GeneratedVisitor {
+            type Value = ControlBounds;
+
+            fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                formatter.write_str("struct frontalis.v1.ControlBounds")
+            }
+
+            fn visit_map<V>(self, mut map_: V) -> std::result::Result<ControlBounds, V::Error>
+                where
+                    V: serde::de::MapAccess<'de>,
+            {
+                let mut control__ = None;
+                let mut lower__ = None;
+                let mut upper__ = None;
+                while let Some(k) = map_.next_key()? {
+                    match k {
+                        GeneratedField::Control => {
+                            if control__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("control"));
+                            }
+                            control__ = Some(map_.next_value()?);
+                        }
+                        GeneratedField::Lower => {
+                            if lower__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("lower"));
+                            }
+                            lower__ = 
+                                Some(map_.next_value::<::pbjson::private::NumberDeserialize<_>>()?.0)
+                            ;
+                        }
+                        GeneratedField::Upper => {
+                            if upper__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("upper"));
+                            }
+                            upper__ = 
+                                Some(map_.next_value::<::pbjson::private::NumberDeserialize<_>>()?.0)
+                            ;
+                        }
+                    }
+                }
+                Ok(ControlBounds {
+                    control: control__.unwrap_or_default(),
+                    lower: lower__.unwrap_or_default(),
+                    upper: upper__.unwrap_or_default(),
+                })
+            }
+        }
+        deserializer.deserialize_struct("frontalis.v1.ControlBounds", FIELDS, GeneratedVisitor)
+    }
+}
+impl serde::Serialize for ControlPair {
+    #[allow(deprecated)]
+    fn serialize<S>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error>
+    where
+        S: serde::Serializer,
+    {
+        use serde::ser::SerializeStruct;
+        let mut len = 0;
+        if !self.first.is_empty() {
+            len += 1;
+        }
+        if !self.second.is_empty() {
+            len += 1;
+        }
+        let mut struct_ser = serializer.serialize_struct("frontalis.v1.ControlPair", len)?;
+        if !self.first.is_empty() {
+            struct_ser.serialize_field("first", &self.first)?;
+        }
+        if !self.second.is_empty() {
+            struct_ser.serialize_field("second", &self.second)?;
+        }
+        struct_ser.end()
+    }
+}
+impl<'de> serde::Deserialize<'de> for ControlPair {
+    #[allow(deprecated)]
+    fn deserialize<D>(deserializer: D) -> std::result::Result<Self, D::Error>
+    where
+        D: serde::Deserializer<'de>,
+    {
+        const FIELDS: &[&str] = &[
+            "first",
+            "second",
+        ];
+
+        #[allow(clippy::enum_variant_names)]
+        enum GeneratedField {
+            First,
+            Second,
+        }
+        impl<'de> serde::Deserialize<'de> for GeneratedField {
+            fn deserialize<D>(deserializer: D) -> std::result::Result<GeneratedField, D::Error>
+            where
+                D: serde::Deserializer<'de>,
+            {
+                struct GeneratedVisitor;
+
+                impl serde::de::Visitor<'_> for GeneratedVisitor {
+                    type Value = GeneratedField;
+
+                    fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                        write!(formatter, "expected one of: {:?}", &FIELDS)
+                    }
+
+                    #[allow(unused_variables)]
+                    fn visit_str<E>(self, value: &str) -> std::result::Result<GeneratedField, E>
+                    where
+                        E: serde::de::Error,
+                    {
+                        match value {
+                            "first" => Ok(GeneratedField::First),
+                            "second" => Ok(GeneratedField::Second),
+                            _ => Err(serde::de::Error::unknown_field(value, FIELDS)),
+                        }
+                    }
+                }
+                deserializer.deserialize_identifier(GeneratedVisitor)
+            }
+        }
+        struct GeneratedVisitor;
+        impl<'de> serde::de::Visitor<'de> for GeneratedVisitor {
+            type Value = ControlPair;
+
+            fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                formatter.write_str("struct frontalis.v1.ControlPair")
+            }
+
+            fn visit_map<V>(self, mut map_: V) -> std::result::Result<ControlPair, V::Error>
+                where
+                    V: serde::de::MapAccess<'de>,
+            {
+                let mut first__ = None;
+                let mut second__ = None;
+                while let Some(k) = map_.next_key()? {
+                    match k {
+                        GeneratedField::First => {
+                            if first__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("first"));
+                            }
+                            first__ = Some(map_.next_value()?);
+                        }
+                        GeneratedField::Second => {
+                            if second__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("second"));
+                            }
+                            second__ = Some(map_.next_value()?);
+                        }
+                    }
+                }
+                Ok(ControlPair {
+                    first: first__.unwrap_or_default(),
+                    second: second__.unwrap_or_default(),
+                })
+            }
+        }
+        deserializer.deserialize_struct("frontalis.v1.ControlPair", FIELDS, GeneratedVisitor)
+    }
+}
 impl serde::Serialize for ControlRange {
     #[allow(deprecated)]
     fn serialize<S>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error>
@@ -1261,6 +1498,21 @@ impl serde::Serialize for ControlRange {
         if self.out_of_range != 0. {
             len += 1;
         }
+        if self.n_frames != 0 {
+            len += 1;
+        }
+        if self.bounded.is_some() {
+            len += 1;
+        }
+        if self.unbounded.is_some() {
+            len += 1;
+        }
+        if self.verdict != 0 {
+            len += 1;
+        }
+        if !self.sentence.is_empty() {
+            len += 1;
+        }
         let mut struct_ser = serializer.serialize_struct("frontalis.v1.ControlRange", len)?;
         if !self.control.is_empty() {
             struct_ser.serialize_field("control", &self.control)?;
@@ -1273,6 +1525,25 @@ impl serde::Serialize for ControlRange {
         }
         if self.out_of_range != 0. {
             struct_ser.serialize_field("outOfRange", &self.out_of_range)?;
+        }
+        if self.n_frames != 0 {
+            #[allow(clippy::needless_borrow)]
+            #[allow(clippy::needless_borrows_for_generic_args)]
+            struct_ser.serialize_field("nFrames", ToString::to_string(&self.n_frames).as_str())?;
+        }
+        if let Some(v) = self.bounded.as_ref() {
+            struct_ser.serialize_field("bounded", v)?;
+        }
+        if let Some(v) = self.unbounded.as_ref() {
+            struct_ser.serialize_field("unbounded", v)?;
+        }
+        if self.verdict != 0 {
+            let v = RangeVerdict::try_from(self.verdict)
+                .map_err(|_| serde::ser::Error::custom(format!("Invalid variant {}", self.verdict)))?;
+            struct_ser.serialize_field("verdict", &v)?;
+        }
+        if !self.sentence.is_empty() {
+            struct_ser.serialize_field("sentence", &self.sentence)?;
         }
         struct_ser.end()
     }
@@ -1289,6 +1560,12 @@ impl<'de> serde::Deserialize<'de> for ControlRange {
             "max",
             "out_of_range",
             "outOfRange",
+            "n_frames",
+            "nFrames",
+            "bounded",
+            "unbounded",
+            "verdict",
+            "sentence",
         ];
 
         #[allow(clippy::enum_variant_names)]
@@ -1297,6 +1574,11 @@ impl<'de> serde::Deserialize<'de> for ControlRange {
             Min,
             Max,
             OutOfRange,
+            NFrames,
+            Bounded,
+            Unbounded,
+            Verdict,
+            Sentence,
         }
         impl<'de> serde::Deserialize<'de> for GeneratedField {
             fn deserialize<D>(deserializer: D) -> std::result::Result<GeneratedField, D::Error>
@@ -1322,6 +1604,11 @@ impl<'de> serde::Deserialize<'de> for ControlRange {
                             "min" => Ok(GeneratedField::Min),
                             "max" => Ok(GeneratedField::Max),
                             "outOfRange" | "out_of_range" => Ok(GeneratedField::OutOfRange),
+                            "nFrames" | "n_frames" => Ok(GeneratedField::NFrames),
+                            "bounded" => Ok(GeneratedField::Bounded),
+                            "unbounded" => Ok(GeneratedField::Unbounded),
+                            "verdict" => Ok(GeneratedField::Verdict),
+                            "sentence" => Ok(GeneratedField::Sentence),
                             _ => Err(serde::de::Error::unknown_field(value, FIELDS)),
                         }
                     }
@@ -1345,6 +1632,11 @@ impl<'de> serde::Deserialize<'de> for ControlRange {
                 let mut min__ = None;
                 let mut max__ = None;
                 let mut out_of_range__ = None;
+                let mut n_frames__ = None;
+                let mut bounded__ = None;
+                let mut unbounded__ = None;
+                let mut verdict__ = None;
+                let mut sentence__ = None;
                 while let Some(k) = map_.next_key()? {
                     match k {
                         GeneratedField::Control => {
@@ -1377,6 +1669,38 @@ impl<'de> serde::Deserialize<'de> for ControlRange {
                                 Some(map_.next_value::<::pbjson::private::NumberDeserialize<_>>()?.0)
                             ;
                         }
+                        GeneratedField::NFrames => {
+                            if n_frames__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("nFrames"));
+                            }
+                            n_frames__ = 
+                                Some(map_.next_value::<::pbjson::private::NumberDeserialize<_>>()?.0)
+                            ;
+                        }
+                        GeneratedField::Bounded => {
+                            if bounded__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("bounded"));
+                            }
+                            bounded__ = map_.next_value()?;
+                        }
+                        GeneratedField::Unbounded => {
+                            if unbounded__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("unbounded"));
+                            }
+                            unbounded__ = map_.next_value()?;
+                        }
+                        GeneratedField::Verdict => {
+                            if verdict__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("verdict"));
+                            }
+                            verdict__ = Some(map_.next_value::<RangeVerdict>()? as i32);
+                        }
+                        GeneratedField::Sentence => {
+                            if sentence__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("sentence"));
+                            }
+                            sentence__ = Some(map_.next_value()?);
+                        }
                     }
                 }
                 Ok(ControlRange {
@@ -1384,6 +1708,11 @@ impl<'de> serde::Deserialize<'de> for ControlRange {
                     min: min__.unwrap_or_default(),
                     max: max__.unwrap_or_default(),
                     out_of_range: out_of_range__.unwrap_or_default(),
+                    n_frames: n_frames__.unwrap_or_default(),
+                    bounded: bounded__,
+                    unbounded: unbounded__,
+                    verdict: verdict__.unwrap_or_default(),
+                    sentence: sentence__.unwrap_or_default(),
                 })
             }
         }
@@ -2150,6 +2479,9 @@ impl serde::Serialize for CurveSample {
         if !self.observed_markers.is_empty() {
             len += 1;
         }
+        if !self.outlier_markers.is_empty() {
+            len += 1;
+        }
         let mut struct_ser = serializer.serialize_struct("frontalis.v1.CurveSample", len)?;
         if self.frame != 0 {
             #[allow(clippy::needless_borrow)]
@@ -2229,6 +2561,9 @@ impl serde::Serialize for CurveSample {
         if !self.observed_markers.is_empty() {
             struct_ser.serialize_field("observedMarkers", &self.observed_markers)?;
         }
+        if !self.outlier_markers.is_empty() {
+            struct_ser.serialize_field("outlierMarkers", &self.outlier_markers)?;
+        }
         struct_ser.end()
     }
 }
@@ -2270,6 +2605,8 @@ impl<'de> serde::Deserialize<'de> for CurveSample {
             "reproducedCm",
             "observed_markers",
             "observedMarkers",
+            "outlier_markers",
+            "outlierMarkers",
         ];
 
         #[allow(clippy::enum_variant_names)]
@@ -2294,6 +2631,7 @@ impl<'de> serde::Deserialize<'de> for CurveSample {
             ObservedCm,
             ReproducedCm,
             ObservedMarkers,
+            OutlierMarkers,
         }
         impl<'de> serde::Deserialize<'de> for GeneratedField {
             fn deserialize<D>(deserializer: D) -> std::result::Result<GeneratedField, D::Error>
@@ -2335,6 +2673,7 @@ impl<'de> serde::Deserialize<'de> for CurveSample {
                             "observedCm" | "observed_cm" => Ok(GeneratedField::ObservedCm),
                             "reproducedCm" | "reproduced_cm" => Ok(GeneratedField::ReproducedCm),
                             "observedMarkers" | "observed_markers" => Ok(GeneratedField::ObservedMarkers),
+                            "outlierMarkers" | "outlier_markers" => Ok(GeneratedField::OutlierMarkers),
                             _ => Err(serde::de::Error::unknown_field(value, FIELDS)),
                         }
                     }
@@ -2374,6 +2713,7 @@ impl<'de> serde::Deserialize<'de> for CurveSample {
                 let mut observed_cm__ = None;
                 let mut reproduced_cm__ = None;
                 let mut observed_markers__ = None;
+                let mut outlier_markers__ = None;
                 while let Some(k) = map_.next_key()? {
                     match k {
                         GeneratedField::Frame => {
@@ -2530,6 +2870,15 @@ impl<'de> serde::Deserialize<'de> for CurveSample {
                                     .into_iter().map(|x| x.0).collect())
                             ;
                         }
+                        GeneratedField::OutlierMarkers => {
+                            if outlier_markers__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("outlierMarkers"));
+                            }
+                            outlier_markers__ = 
+                                Some(map_.next_value::<Vec<::pbjson::private::NumberDeserialize<_>>>()?
+                                    .into_iter().map(|x| x.0).collect())
+                            ;
+                        }
                     }
                 }
                 Ok(CurveSample {
@@ -2553,6 +2902,7 @@ impl<'de> serde::Deserialize<'de> for CurveSample {
                     observed_cm: observed_cm__.unwrap_or_default(),
                     reproduced_cm: reproduced_cm__.unwrap_or_default(),
                     observed_markers: observed_markers__.unwrap_or_default(),
+                    outlier_markers: outlier_markers__.unwrap_or_default(),
                 })
             }
         }
@@ -7520,6 +7870,416 @@ impl<'de> serde::Deserialize<'de> for MusclePair {
         deserializer.deserialize_struct("frontalis.v1.MusclePair", FIELDS, GeneratedVisitor)
     }
 }
+impl serde::Serialize for NeutralDoubt {
+    #[allow(deprecated)]
+    fn serialize<S>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error>
+    where
+        S: serde::Serializer,
+    {
+        use serde::ser::SerializeStruct;
+        let mut len = 0;
+        if self.cause != 0 {
+            len += 1;
+        }
+        if self.residual_cm != 0. {
+            len += 1;
+        }
+        if self.expected_cm != 0. {
+            len += 1;
+        }
+        if !self.advice.is_empty() {
+            len += 1;
+        }
+        let mut struct_ser = serializer.serialize_struct("frontalis.v1.NeutralDoubt", len)?;
+        if self.cause != 0 {
+            let v = NeutralDoubtCause::try_from(self.cause)
+                .map_err(|_| serde::ser::Error::custom(format!("Invalid variant {}", self.cause)))?;
+            struct_ser.serialize_field("cause", &v)?;
+        }
+        if self.residual_cm != 0. {
+            struct_ser.serialize_field("residualCm", &self.residual_cm)?;
+        }
+        if self.expected_cm != 0. {
+            struct_ser.serialize_field("expectedCm", &self.expected_cm)?;
+        }
+        if !self.advice.is_empty() {
+            struct_ser.serialize_field("advice", &self.advice)?;
+        }
+        struct_ser.end()
+    }
+}
+impl<'de> serde::Deserialize<'de> for NeutralDoubt {
+    #[allow(deprecated)]
+    fn deserialize<D>(deserializer: D) -> std::result::Result<Self, D::Error>
+    where
+        D: serde::Deserializer<'de>,
+    {
+        const FIELDS: &[&str] = &[
+            "cause",
+            "residual_cm",
+            "residualCm",
+            "expected_cm",
+            "expectedCm",
+            "advice",
+        ];
+
+        #[allow(clippy::enum_variant_names)]
+        enum GeneratedField {
+            Cause,
+            ResidualCm,
+            ExpectedCm,
+            Advice,
+        }
+        impl<'de> serde::Deserialize<'de> for GeneratedField {
+            fn deserialize<D>(deserializer: D) -> std::result::Result<GeneratedField, D::Error>
+            where
+                D: serde::Deserializer<'de>,
+            {
+                struct GeneratedVisitor;
+
+                impl serde::de::Visitor<'_> for GeneratedVisitor {
+                    type Value = GeneratedField;
+
+                    fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                        write!(formatter, "expected one of: {:?}", &FIELDS)
+                    }
+
+                    #[allow(unused_variables)]
+                    fn visit_str<E>(self, value: &str) -> std::result::Result<GeneratedField, E>
+                    where
+                        E: serde::de::Error,
+                    {
+                        match value {
+                            "cause" => Ok(GeneratedField::Cause),
+                            "residualCm" | "residual_cm" => Ok(GeneratedField::ResidualCm),
+                            "expectedCm" | "expected_cm" => Ok(GeneratedField::ExpectedCm),
+                            "advice" => Ok(GeneratedField::Advice),
+                            _ => Err(serde::de::Error::unknown_field(value, FIELDS)),
+                        }
+                    }
+                }
+                deserializer.deserialize_identifier(GeneratedVisitor)
+            }
+        }
+        struct GeneratedVisitor;
+        impl<'de> serde::de::Visitor<'de> for GeneratedVisitor {
+            type Value = NeutralDoubt;
+
+            fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                formatter.write_str("struct frontalis.v1.NeutralDoubt")
+            }
+
+            fn visit_map<V>(self, mut map_: V) -> std::result::Result<NeutralDoubt, V::Error>
+                where
+                    V: serde::de::MapAccess<'de>,
+            {
+                let mut cause__ = None;
+                let mut residual_cm__ = None;
+                let mut expected_cm__ = None;
+                let mut advice__ = None;
+                while let Some(k) = map_.next_key()? {
+                    match k {
+                        GeneratedField::Cause => {
+                            if cause__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("cause"));
+                            }
+                            cause__ = Some(map_.next_value::<NeutralDoubtCause>()? as i32);
+                        }
+                        GeneratedField::ResidualCm => {
+                            if residual_cm__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("residualCm"));
+                            }
+                            residual_cm__ = 
+                                Some(map_.next_value::<::pbjson::private::NumberDeserialize<_>>()?.0)
+                            ;
+                        }
+                        GeneratedField::ExpectedCm => {
+                            if expected_cm__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("expectedCm"));
+                            }
+                            expected_cm__ = 
+                                Some(map_.next_value::<::pbjson::private::NumberDeserialize<_>>()?.0)
+                            ;
+                        }
+                        GeneratedField::Advice => {
+                            if advice__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("advice"));
+                            }
+                            advice__ = Some(map_.next_value()?);
+                        }
+                    }
+                }
+                Ok(NeutralDoubt {
+                    cause: cause__.unwrap_or_default(),
+                    residual_cm: residual_cm__.unwrap_or_default(),
+                    expected_cm: expected_cm__.unwrap_or_default(),
+                    advice: advice__.unwrap_or_default(),
+                })
+            }
+        }
+        deserializer.deserialize_struct("frontalis.v1.NeutralDoubt", FIELDS, GeneratedVisitor)
+    }
+}
+impl serde::Serialize for NeutralDoubtCause {
+    #[allow(deprecated)]
+    fn serialize<S>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error>
+    where
+        S: serde::Serializer,
+    {
+        let variant = match self {
+            Self::Unspecified => "NEUTRAL_DOUBT_CAUSE_UNSPECIFIED",
+            Self::LooksContracted => "NEUTRAL_DOUBT_CAUSE_LOOKS_CONTRACTED",
+            Self::QuieterFramesSeen => "NEUTRAL_DOUBT_CAUSE_QUIETER_FRAMES_SEEN",
+        };
+        serializer.serialize_str(variant)
+    }
+}
+impl<'de> serde::Deserialize<'de> for NeutralDoubtCause {
+    #[allow(deprecated)]
+    fn deserialize<D>(deserializer: D) -> std::result::Result<Self, D::Error>
+    where
+        D: serde::Deserializer<'de>,
+    {
+        const FIELDS: &[&str] = &[
+            "NEUTRAL_DOUBT_CAUSE_UNSPECIFIED",
+            "NEUTRAL_DOUBT_CAUSE_LOOKS_CONTRACTED",
+            "NEUTRAL_DOUBT_CAUSE_QUIETER_FRAMES_SEEN",
+        ];
+
+        struct GeneratedVisitor;
+
+        impl serde::de::Visitor<'_> for GeneratedVisitor {
+            type Value = NeutralDoubtCause;
+
+            fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                write!(formatter, "expected one of: {:?}", &FIELDS)
+            }
+
+            fn visit_i64<E>(self, v: i64) -> std::result::Result<Self::Value, E>
+            where
+                E: serde::de::Error,
+            {
+                i32::try_from(v)
+                    .ok()
+                    .and_then(|x| x.try_into().ok())
+                    .ok_or_else(|| {
+                        serde::de::Error::invalid_value(serde::de::Unexpected::Signed(v), &self)
+                    })
+            }
+
+            fn visit_u64<E>(self, v: u64) -> std::result::Result<Self::Value, E>
+            where
+                E: serde::de::Error,
+            {
+                i32::try_from(v)
+                    .ok()
+                    .and_then(|x| x.try_into().ok())
+                    .ok_or_else(|| {
+                        serde::de::Error::invalid_value(serde::de::Unexpected::Unsigned(v), &self)
+                    })
+            }
+
+            fn visit_str<E>(self, value: &str) -> std::result::Result<Self::Value, E>
+            where
+                E: serde::de::Error,
+            {
+                match value {
+                    "NEUTRAL_DOUBT_CAUSE_UNSPECIFIED" => Ok(NeutralDoubtCause::Unspecified),
+                    "NEUTRAL_DOUBT_CAUSE_LOOKS_CONTRACTED" => Ok(NeutralDoubtCause::LooksContracted),
+                    "NEUTRAL_DOUBT_CAUSE_QUIETER_FRAMES_SEEN" => Ok(NeutralDoubtCause::QuieterFramesSeen),
+                    _ => Err(serde::de::Error::unknown_variant(value, FIELDS)),
+                }
+            }
+        }
+        deserializer.deserialize_any(GeneratedVisitor)
+    }
+}
+impl serde::Serialize for NeutralSource {
+    #[allow(deprecated)]
+    fn serialize<S>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error>
+    where
+        S: serde::Serializer,
+    {
+        let variant = match self {
+            Self::Unspecified => "NEUTRAL_SOURCE_UNSPECIFIED",
+            Self::NextFrames => "NEUTRAL_SOURCE_NEXT_FRAMES",
+            Self::QuietestFrames => "NEUTRAL_SOURCE_QUIETEST_FRAMES",
+        };
+        serializer.serialize_str(variant)
+    }
+}
+impl<'de> serde::Deserialize<'de> for NeutralSource {
+    #[allow(deprecated)]
+    fn deserialize<D>(deserializer: D) -> std::result::Result<Self, D::Error>
+    where
+        D: serde::Deserializer<'de>,
+    {
+        const FIELDS: &[&str] = &[
+            "NEUTRAL_SOURCE_UNSPECIFIED",
+            "NEUTRAL_SOURCE_NEXT_FRAMES",
+            "NEUTRAL_SOURCE_QUIETEST_FRAMES",
+        ];
+
+        struct GeneratedVisitor;
+
+        impl serde::de::Visitor<'_> for GeneratedVisitor {
+            type Value = NeutralSource;
+
+            fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                write!(formatter, "expected one of: {:?}", &FIELDS)
+            }
+
+            fn visit_i64<E>(self, v: i64) -> std::result::Result<Self::Value, E>
+            where
+                E: serde::de::Error,
+            {
+                i32::try_from(v)
+                    .ok()
+                    .and_then(|x| x.try_into().ok())
+                    .ok_or_else(|| {
+                        serde::de::Error::invalid_value(serde::de::Unexpected::Signed(v), &self)
+                    })
+            }
+
+            fn visit_u64<E>(self, v: u64) -> std::result::Result<Self::Value, E>
+            where
+                E: serde::de::Error,
+            {
+                i32::try_from(v)
+                    .ok()
+                    .and_then(|x| x.try_into().ok())
+                    .ok_or_else(|| {
+                        serde::de::Error::invalid_value(serde::de::Unexpected::Unsigned(v), &self)
+                    })
+            }
+
+            fn visit_str<E>(self, value: &str) -> std::result::Result<Self::Value, E>
+            where
+                E: serde::de::Error,
+            {
+                match value {
+                    "NEUTRAL_SOURCE_UNSPECIFIED" => Ok(NeutralSource::Unspecified),
+                    "NEUTRAL_SOURCE_NEXT_FRAMES" => Ok(NeutralSource::NextFrames),
+                    "NEUTRAL_SOURCE_QUIETEST_FRAMES" => Ok(NeutralSource::QuietestFrames),
+                    _ => Err(serde::de::Error::unknown_variant(value, FIELDS)),
+                }
+            }
+        }
+        deserializer.deserialize_any(GeneratedVisitor)
+    }
+}
+impl serde::Serialize for Percentiles {
+    #[allow(deprecated)]
+    fn serialize<S>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error>
+    where
+        S: serde::Serializer,
+    {
+        use serde::ser::SerializeStruct;
+        let mut len = 0;
+        if self.p1 != 0. {
+            len += 1;
+        }
+        if self.p99 != 0. {
+            len += 1;
+        }
+        let mut struct_ser = serializer.serialize_struct("frontalis.v1.Percentiles", len)?;
+        if self.p1 != 0. {
+            struct_ser.serialize_field("p1", &self.p1)?;
+        }
+        if self.p99 != 0. {
+            struct_ser.serialize_field("p99", &self.p99)?;
+        }
+        struct_ser.end()
+    }
+}
+impl<'de> serde::Deserialize<'de> for Percentiles {
+    #[allow(deprecated)]
+    fn deserialize<D>(deserializer: D) -> std::result::Result<Self, D::Error>
+    where
+        D: serde::Deserializer<'de>,
+    {
+        const FIELDS: &[&str] = &[
+            "p1",
+            "p99",
+        ];
+
+        #[allow(clippy::enum_variant_names)]
+        enum GeneratedField {
+            P1,
+            P99,
+        }
+        impl<'de> serde::Deserialize<'de> for GeneratedField {
+            fn deserialize<D>(deserializer: D) -> std::result::Result<GeneratedField, D::Error>
+            where
+                D: serde::Deserializer<'de>,
+            {
+                struct GeneratedVisitor;
+
+                impl serde::de::Visitor<'_> for GeneratedVisitor {
+                    type Value = GeneratedField;
+
+                    fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                        write!(formatter, "expected one of: {:?}", &FIELDS)
+                    }
+
+                    #[allow(unused_variables)]
+                    fn visit_str<E>(self, value: &str) -> std::result::Result<GeneratedField, E>
+                    where
+                        E: serde::de::Error,
+                    {
+                        match value {
+                            "p1" => Ok(GeneratedField::P1),
+                            "p99" => Ok(GeneratedField::P99),
+                            _ => Err(serde::de::Error::unknown_field(value, FIELDS)),
+                        }
+                    }
+                }
+                deserializer.deserialize_identifier(GeneratedVisitor)
+            }
+        }
+        struct GeneratedVisitor;
+        impl<'de> serde::de::Visitor<'de> for GeneratedVisitor {
+            type Value = Percentiles;
+
+            fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                formatter.write_str("struct frontalis.v1.Percentiles")
+            }
+
+            fn visit_map<V>(self, mut map_: V) -> std::result::Result<Percentiles, V::Error>
+                where
+                    V: serde::de::MapAccess<'de>,
+            {
+                let mut p1__ = None;
+                let mut p99__ = None;
+                while let Some(k) = map_.next_key()? {
+                    match k {
+                        GeneratedField::P1 => {
+                            if p1__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("p1"));
+                            }
+                            p1__ = 
+                                Some(map_.next_value::<::pbjson::private::NumberDeserialize<_>>()?.0)
+                            ;
+                        }
+                        GeneratedField::P99 => {
+                            if p99__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("p99"));
+                            }
+                            p99__ = 
+                                Some(map_.next_value::<::pbjson::private::NumberDeserialize<_>>()?.0)
+                            ;
+                        }
+                    }
+                }
+                Ok(Percentiles {
+                    p1: p1__.unwrap_or_default(),
+                    p99: p99__.unwrap_or_default(),
+                })
+            }
+        }
+        deserializer.deserialize_struct("frontalis.v1.Percentiles", FIELDS, GeneratedVisitor)
+    }
+}
 impl serde::Serialize for Principal {
     #[allow(deprecated)]
     fn serialize<S>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error>
@@ -8583,6 +9343,92 @@ impl<'de> serde::Deserialize<'de> for Quality {
         deserializer.deserialize_any(GeneratedVisitor)
     }
 }
+impl serde::Serialize for RangeVerdict {
+    #[allow(deprecated)]
+    fn serialize<S>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error>
+    where
+        S: serde::Serializer,
+    {
+        let variant = match self {
+            Self::Unspecified => "RANGE_VERDICT_UNSPECIFIED",
+            Self::NotYetSeen => "RANGE_VERDICT_NOT_YET_SEEN",
+            Self::Sound => "RANGE_VERDICT_SOUND",
+            Self::TooWeak => "RANGE_VERDICT_TOO_WEAK",
+            Self::TooStrong => "RANGE_VERDICT_TOO_STRONG",
+            Self::WrongDirection => "RANGE_VERDICT_WRONG_DIRECTION",
+            Self::HardlyObservable => "RANGE_VERDICT_HARDLY_OBSERVABLE",
+        };
+        serializer.serialize_str(variant)
+    }
+}
+impl<'de> serde::Deserialize<'de> for RangeVerdict {
+    #[allow(deprecated)]
+    fn deserialize<D>(deserializer: D) -> std::result::Result<Self, D::Error>
+    where
+        D: serde::Deserializer<'de>,
+    {
+        const FIELDS: &[&str] = &[
+            "RANGE_VERDICT_UNSPECIFIED",
+            "RANGE_VERDICT_NOT_YET_SEEN",
+            "RANGE_VERDICT_SOUND",
+            "RANGE_VERDICT_TOO_WEAK",
+            "RANGE_VERDICT_TOO_STRONG",
+            "RANGE_VERDICT_WRONG_DIRECTION",
+            "RANGE_VERDICT_HARDLY_OBSERVABLE",
+        ];
+
+        struct GeneratedVisitor;
+
+        impl serde::de::Visitor<'_> for GeneratedVisitor {
+            type Value = RangeVerdict;
+
+            fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                write!(formatter, "expected one of: {:?}", &FIELDS)
+            }
+
+            fn visit_i64<E>(self, v: i64) -> std::result::Result<Self::Value, E>
+            where
+                E: serde::de::Error,
+            {
+                i32::try_from(v)
+                    .ok()
+                    .and_then(|x| x.try_into().ok())
+                    .ok_or_else(|| {
+                        serde::de::Error::invalid_value(serde::de::Unexpected::Signed(v), &self)
+                    })
+            }
+
+            fn visit_u64<E>(self, v: u64) -> std::result::Result<Self::Value, E>
+            where
+                E: serde::de::Error,
+            {
+                i32::try_from(v)
+                    .ok()
+                    .and_then(|x| x.try_into().ok())
+                    .ok_or_else(|| {
+                        serde::de::Error::invalid_value(serde::de::Unexpected::Unsigned(v), &self)
+                    })
+            }
+
+            fn visit_str<E>(self, value: &str) -> std::result::Result<Self::Value, E>
+            where
+                E: serde::de::Error,
+            {
+                match value {
+                    "RANGE_VERDICT_UNSPECIFIED" => Ok(RangeVerdict::Unspecified),
+                    "RANGE_VERDICT_NOT_YET_SEEN" => Ok(RangeVerdict::NotYetSeen),
+                    "RANGE_VERDICT_SOUND" => Ok(RangeVerdict::Sound),
+                    "RANGE_VERDICT_TOO_WEAK" => Ok(RangeVerdict::TooWeak),
+                    "RANGE_VERDICT_TOO_STRONG" => Ok(RangeVerdict::TooStrong),
+                    "RANGE_VERDICT_WRONG_DIRECTION" => Ok(RangeVerdict::WrongDirection),
+                    "RANGE_VERDICT_HARDLY_OBSERVABLE" => Ok(RangeVerdict::HardlyObservable),
+                    _ => Err(serde::de::Error::unknown_variant(value, FIELDS)),
+                }
+            }
+        }
+        deserializer.deserialize_any(GeneratedVisitor)
+    }
+}
 impl serde::Serialize for ReadCurvesRequest {
     #[allow(deprecated)]
     fn serialize<S>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error>
@@ -8968,9 +9814,17 @@ impl serde::Serialize for RecenterSessionRequest {
         if !self.name.is_empty() {
             len += 1;
         }
+        if self.source != 0 {
+            len += 1;
+        }
         let mut struct_ser = serializer.serialize_struct("frontalis.v1.RecenterSessionRequest", len)?;
         if !self.name.is_empty() {
             struct_ser.serialize_field("name", &self.name)?;
+        }
+        if self.source != 0 {
+            let v = NeutralSource::try_from(self.source)
+                .map_err(|_| serde::ser::Error::custom(format!("Invalid variant {}", self.source)))?;
+            struct_ser.serialize_field("source", &v)?;
         }
         struct_ser.end()
     }
@@ -8983,11 +9837,13 @@ impl<'de> serde::Deserialize<'de> for RecenterSessionRequest {
     {
         const FIELDS: &[&str] = &[
             "name",
+            "source",
         ];
 
         #[allow(clippy::enum_variant_names)]
         enum GeneratedField {
             Name,
+            Source,
         }
         impl<'de> serde::Deserialize<'de> for GeneratedField {
             fn deserialize<D>(deserializer: D) -> std::result::Result<GeneratedField, D::Error>
@@ -9010,6 +9866,7 @@ impl<'de> serde::Deserialize<'de> for RecenterSessionRequest {
                     {
                         match value {
                             "name" => Ok(GeneratedField::Name),
+                            "source" => Ok(GeneratedField::Source),
                             _ => Err(serde::de::Error::unknown_field(value, FIELDS)),
                         }
                     }
@@ -9030,6 +9887,7 @@ impl<'de> serde::Deserialize<'de> for RecenterSessionRequest {
                     V: serde::de::MapAccess<'de>,
             {
                 let mut name__ = None;
+                let mut source__ = None;
                 while let Some(k) = map_.next_key()? {
                     match k {
                         GeneratedField::Name => {
@@ -9038,10 +9896,17 @@ impl<'de> serde::Deserialize<'de> for RecenterSessionRequest {
                             }
                             name__ = Some(map_.next_value()?);
                         }
+                        GeneratedField::Source => {
+                            if source__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("source"));
+                            }
+                            source__ = Some(map_.next_value::<NeutralSource>()? as i32);
+                        }
                     }
                 }
                 Ok(RecenterSessionRequest {
                     name: name__.unwrap_or_default(),
+                    source: source__.unwrap_or_default(),
                 })
             }
         }
@@ -10396,6 +11261,15 @@ impl serde::Serialize for SessionSettings {
         if self.record_images.is_some() {
             len += 1;
         }
+        if self.symmetry.is_some() {
+            len += 1;
+        }
+        if !self.bounds.is_empty() {
+            len += 1;
+        }
+        if !self.exclusive_pairs.is_empty() {
+            len += 1;
+        }
         let mut struct_ser = serializer.serialize_struct("frontalis.v1.SessionSettings", len)?;
         if let Some(v) = self.neutral_frames.as_ref() {
             struct_ser.serialize_field("neutralFrames", v)?;
@@ -10438,6 +11312,15 @@ impl serde::Serialize for SessionSettings {
         if let Some(v) = self.record_images.as_ref() {
             struct_ser.serialize_field("recordImages", v)?;
         }
+        if let Some(v) = self.symmetry.as_ref() {
+            struct_ser.serialize_field("symmetry", v)?;
+        }
+        if !self.bounds.is_empty() {
+            struct_ser.serialize_field("bounds", &self.bounds)?;
+        }
+        if !self.exclusive_pairs.is_empty() {
+            struct_ser.serialize_field("exclusivePairs", &self.exclusive_pairs)?;
+        }
         struct_ser.end()
     }
 }
@@ -10469,6 +11352,10 @@ impl<'de> serde::Deserialize<'de> for SessionSettings {
             "alignOnRequest",
             "record_images",
             "recordImages",
+            "symmetry",
+            "bounds",
+            "exclusive_pairs",
+            "exclusivePairs",
         ];
 
         #[allow(clippy::enum_variant_names)]
@@ -10486,6 +11373,9 @@ impl<'de> serde::Deserialize<'de> for SessionSettings {
             Plain,
             AlignOnRequest,
             RecordImages,
+            Symmetry,
+            Bounds,
+            ExclusivePairs,
         }
         impl<'de> serde::Deserialize<'de> for GeneratedField {
             fn deserialize<D>(deserializer: D) -> std::result::Result<GeneratedField, D::Error>
@@ -10520,6 +11410,9 @@ impl<'de> serde::Deserialize<'de> for SessionSettings {
                             "plain" => Ok(GeneratedField::Plain),
                             "alignOnRequest" | "align_on_request" => Ok(GeneratedField::AlignOnRequest),
                             "recordImages" | "record_images" => Ok(GeneratedField::RecordImages),
+                            "symmetry" => Ok(GeneratedField::Symmetry),
+                            "bounds" => Ok(GeneratedField::Bounds),
+                            "exclusivePairs" | "exclusive_pairs" => Ok(GeneratedField::ExclusivePairs),
                             _ => Err(serde::de::Error::unknown_field(value, FIELDS)),
                         }
                     }
@@ -10552,6 +11445,9 @@ impl<'de> serde::Deserialize<'de> for SessionSettings {
                 let mut plain__ = None;
                 let mut align_on_request__ = None;
                 let mut record_images__ = None;
+                let mut symmetry__ = None;
+                let mut bounds__ = None;
+                let mut exclusive_pairs__ = None;
                 while let Some(k) = map_.next_key()? {
                     match k {
                         GeneratedField::NeutralFrames => {
@@ -10638,6 +11534,26 @@ impl<'de> serde::Deserialize<'de> for SessionSettings {
                             }
                             record_images__ = map_.next_value()?;
                         }
+                        GeneratedField::Symmetry => {
+                            if symmetry__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("symmetry"));
+                            }
+                            symmetry__ = 
+                                map_.next_value::<::std::option::Option<::pbjson::private::NumberDeserialize<_>>>()?.map(|x| x.0)
+                            ;
+                        }
+                        GeneratedField::Bounds => {
+                            if bounds__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("bounds"));
+                            }
+                            bounds__ = Some(map_.next_value()?);
+                        }
+                        GeneratedField::ExclusivePairs => {
+                            if exclusive_pairs__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("exclusivePairs"));
+                            }
+                            exclusive_pairs__ = Some(map_.next_value()?);
+                        }
                     }
                 }
                 Ok(SessionSettings {
@@ -10654,6 +11570,9 @@ impl<'de> serde::Deserialize<'de> for SessionSettings {
                     plain: plain__,
                     align_on_request: align_on_request__,
                     record_images: record_images__,
+                    symmetry: symmetry__,
+                    bounds: bounds__.unwrap_or_default(),
+                    exclusive_pairs: exclusive_pairs__.unwrap_or_default(),
                 })
             }
         }
@@ -10808,6 +11727,9 @@ impl serde::Serialize for SessionStatus {
         if !self.unknown_markers.is_empty() {
             len += 1;
         }
+        if self.neutral_doubt.is_some() {
+            len += 1;
+        }
         let mut struct_ser = serializer.serialize_struct("frontalis.v1.SessionStatus", len)?;
         if self.state != 0 {
             let v = SessionState::try_from(self.state)
@@ -10877,6 +11799,9 @@ impl serde::Serialize for SessionStatus {
         if !self.unknown_markers.is_empty() {
             struct_ser.serialize_field("unknownMarkers", &self.unknown_markers)?;
         }
+        if let Some(v) = self.neutral_doubt.as_ref() {
+            struct_ser.serialize_field("neutralDoubt", v)?;
+        }
         struct_ser.end()
     }
 }
@@ -10914,6 +11839,8 @@ impl<'de> serde::Deserialize<'de> for SessionStatus {
             "clock",
             "unknown_markers",
             "unknownMarkers",
+            "neutral_doubt",
+            "neutralDoubt",
         ];
 
         #[allow(clippy::enum_variant_names)]
@@ -10936,6 +11863,7 @@ impl<'de> serde::Deserialize<'de> for SessionStatus {
             AlignmentProblem,
             Clock,
             UnknownMarkers,
+            NeutralDoubt,
         }
         impl<'de> serde::Deserialize<'de> for GeneratedField {
             fn deserialize<D>(deserializer: D) -> std::result::Result<GeneratedField, D::Error>
@@ -10975,6 +11903,7 @@ impl<'de> serde::Deserialize<'de> for SessionStatus {
                             "alignmentProblem" | "alignment_problem" => Ok(GeneratedField::AlignmentProblem),
                             "clock" => Ok(GeneratedField::Clock),
                             "unknownMarkers" | "unknown_markers" => Ok(GeneratedField::UnknownMarkers),
+                            "neutralDoubt" | "neutral_doubt" => Ok(GeneratedField::NeutralDoubt),
                             _ => Err(serde::de::Error::unknown_field(value, FIELDS)),
                         }
                     }
@@ -11012,6 +11941,7 @@ impl<'de> serde::Deserialize<'de> for SessionStatus {
                 let mut alignment_problem__ = None;
                 let mut clock__ = None;
                 let mut unknown_markers__ = None;
+                let mut neutral_doubt__ = None;
                 while let Some(k) = map_.next_key()? {
                     match k {
                         GeneratedField::State => {
@@ -11138,6 +12068,12 @@ impl<'de> serde::Deserialize<'de> for SessionStatus {
                             }
                             unknown_markers__ = Some(map_.next_value()?);
                         }
+                        GeneratedField::NeutralDoubt => {
+                            if neutral_doubt__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("neutralDoubt"));
+                            }
+                            neutral_doubt__ = map_.next_value()?;
+                        }
                     }
                 }
                 Ok(SessionStatus {
@@ -11159,6 +12095,7 @@ impl<'de> serde::Deserialize<'de> for SessionStatus {
                     alignment_problem: alignment_problem__.unwrap_or_default(),
                     clock: clock__,
                     unknown_markers: unknown_markers__.unwrap_or_default(),
+                    neutral_doubt: neutral_doubt__,
                 })
             }
         }

@@ -2,7 +2,10 @@
 
 use std::time::Duration;
 
-use frontalis_analysis::analyzer::{MarkerSettings, RegionMode};
+use frontalis_analysis::{
+    analyzer::{MarkerSettings, RegionMode},
+    marker_analysis::objective::{MuscleBounds, Objective},
+};
 use serde::{Deserialize, Serialize};
 
 use super::CatalogueError;
@@ -47,6 +50,28 @@ struct Record {
     align_on_request: bool,
     stale_after_nanos: Option<u64>,
     publisher_timeout_nanos: u64,
+    /// Absent in records of before there were terms and bounds: the defaults.
+    #[serde(default)]
+    objective: ObjectiveRecord,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct ObjectiveRecord {
+    robust: bool,
+    smoothing: f64,
+    sparsity: f64,
+    symmetry: f64,
+    bounds: Vec<BoundsRecord>,
+    exclusive_pairs: Vec<[String; 2]>,
+}
+
+#[derive(Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+struct BoundsRecord {
+    muscle: String,
+    lower: f64,
+    upper: f64,
 }
 
 impl From<&StoredSettings> for Record {
@@ -60,6 +85,7 @@ impl From<&StoredSettings> for Record {
             align_on_request: marker.align_on_request,
             stale_after_nanos: settings.stale_after.map(nanos),
             publisher_timeout_nanos: nanos(settings.publisher_timeout),
+            objective: (&marker.objective).into(),
         }
     }
 }
@@ -78,6 +104,7 @@ impl From<Record> for StoredSettings {
                 region_mode,
                 stabilize_head: record.stabilize_head,
                 align_on_request: record.align_on_request,
+                objective: record.objective.into(),
             },
             stale_after: record.stale_after_nanos.map(Duration::from_nanos),
             publisher_timeout: Duration::from_nanos(record.publisher_timeout_nanos),
@@ -85,7 +112,89 @@ impl From<Record> for StoredSettings {
     }
 }
 
+impl Default for ObjectiveRecord {
+    fn default() -> Self {
+        (&Objective::default()).into()
+    }
+}
+
+impl From<&Objective> for ObjectiveRecord {
+    fn from(objective: &Objective) -> Self {
+        let record = |it: &MuscleBounds| BoundsRecord {
+            muscle: it.muscle.clone(),
+            lower: it.lower,
+            upper: it.upper,
+        };
+        Self {
+            robust: objective.robust,
+            smoothing: objective.smoothing,
+            sparsity: objective.sparsity,
+            symmetry: objective.symmetry,
+            bounds: objective.bounds.iter().map(record).collect(),
+            exclusive_pairs: objective.exclusive_pairs.clone(),
+        }
+    }
+}
+
+impl From<ObjectiveRecord> for Objective {
+    fn from(record: ObjectiveRecord) -> Self {
+        let bounds = |it: BoundsRecord| MuscleBounds {
+            muscle: it.muscle,
+            lower: it.lower,
+            upper: it.upper,
+        };
+        Self {
+            robust: record.robust,
+            smoothing: record.smoothing,
+            sparsity: record.sparsity,
+            symmetry: record.symmetry,
+            bounds: record.bounds.into_iter().map(bounds).collect(),
+            exclusive_pairs: record.exclusive_pairs,
+        }
+    }
+}
+
 /// Settings are limited to hours; u64 nanoseconds hold centuries.
 fn nanos(duration: Duration) -> u64 {
     u64::try_from(duration.as_nanos()).unwrap_or(u64::MAX)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn settings_read_back_to_the_same_bits() {
+        let third = 1.0 / 3.0;
+        let settings = StoredSettings {
+            marker: MarkerSettings {
+                neutral_frames: 7,
+                region_mode: RegionMode::Split,
+                objective: Objective {
+                    smoothing: third,
+                    symmetry: f64::from(0.1_f32),
+                    bounds: vec![MuscleBounds {
+                        muscle: "jaw".into(),
+                        lower: 0.0,
+                        upper: third,
+                    }],
+                    exclusive_pairs: vec![["jaw".into(), "kiss".into()]],
+                    ..Objective::plain()
+                },
+                ..MarkerSettings::default()
+            },
+            stale_after: None,
+            publisher_timeout: Duration::from_secs(10),
+        };
+        let text = settings.to_text().unwrap();
+        assert_eq!(StoredSettings::from_text(&text).unwrap(), settings);
+    }
+
+    #[test]
+    fn a_record_of_before_there_were_terms_has_the_default_objective() {
+        let text = r#"{"neutral_frames":15,"allow_exaggeration":false,"split_regions":false,"stabilize_head":true,
+            "align_on_request":false,"stale_after_nanos":null,"publisher_timeout_nanos":10000000000}"#;
+        let settings = StoredSettings::from_text(text).unwrap();
+        assert_eq!(settings.marker, MarkerSettings::default());
+    }
 }

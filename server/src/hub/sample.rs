@@ -39,7 +39,10 @@ impl PublishedSample {
         let trace = &sample.markers;
         size_of::<Self>()
             + size_of_val(sample.activations.as_slice())
+            + size_of_val(sample.standard_errors.as_slice())
             + size_of_val(sample.unobserved.as_slice())
+            + size_of_val(sample.outliers.as_slice())
+            + size_of_val(sample.relabeled.as_slice())
             + size_of_val(trace.markers.as_slice())
             + size_of_val(trace.observed_cm.as_slice())
             + size_of_val(trace.reproduced_cm.as_slice())

@@ -206,6 +206,19 @@ impl Subscription {
         self.max_entries = n_entries.clamp(1, BATCH_ENTRIES);
     }
 
+    /// Whether it is to get all samples, not the newest.
+    pub fn is_of_every_frame(&self) -> bool {
+        matches!(self.reading, Reading::Every(_))
+    }
+
+    /// What a subscription of every frame was not given yet; none when it has all there is.
+    pub fn unsent(&self) -> Option<LostRange> {
+        match &self.reading {
+            Reading::Every(cursor) => self.hub.shared().window.behind(cursor),
+            Reading::Latest { .. } => None,
+        }
+    }
+
     /// Samples that were passed over since the subscription began. The newest may still be sent, until the hub closes.
     pub fn skipped_samples(&self) -> u64 {
         self.skipped_so_far(&self.hub.shared())

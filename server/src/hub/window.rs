@@ -267,6 +267,18 @@ impl Window {
         let kept = self.entries.range(offset.min(self.entries.len())..);
         Ok(kept.map(|it| &it.entry))
     }
+
+    /// Everything from `cursor` on, kept or not; none when nothing is.
+    pub(super) fn behind(&self, cursor: &Cursor) -> Option<LostRange> {
+        let end = self.base + self.entries.len() as u64;
+        let newest = self.entries.back().filter(|_| cursor.position < end)?;
+        Some(LostRange {
+            first_sequence: cursor.sequence,
+            last_sequence: self.newest_sequence(),
+            first_frame: cursor.last_frame.saturating_add(1),
+            last_frame: newest.entry.last_frame(),
+        })
+    }
 }
 
 impl Drop for Window {

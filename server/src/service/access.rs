@@ -1,6 +1,6 @@
 //! Who may do what (CONTRACTS S-3 to S-5, S-10): the one check that every door passes.
 //!
-//! [`authenticate`] asks each request who sent it and puts the [`Caller`] into its extensions; every method of every
+//! [`authenticate()`] asks each request who sent it and puts the [`Caller`] into its extensions; every method of every
 //! service asks the caller whether it may. Without a token file everybody who reaches the port is let in.
 
 mod attempts;
@@ -225,3 +225,6 @@ impl fmt::Debug for Access {
         formatter.write_str("Access(***)")
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,9 +1,10 @@
 //! The audit log: who did what, from where, with which result (CONTRACTS S-12).
 //!
-//! One line of JSON an entry, each with the hash of the one before; written by one task in the order of the entries.
-//! Nobody waits for it: beyond [`CAPACITY`] entries are counted instead of kept, and the next line says how many.
+//! One line of JSON an entry, each with the hash of the one before ([`frontalis_access::ChainEnd`]); written by one task in
+//! the order of the entries.
+//! Nobody waits for it: when too many wait for the disk, entries are counted instead of kept, and the next line says how
+//! many.
 
-mod chain;
 mod log;
 
 use std::sync::{
@@ -15,7 +16,6 @@ use tokio::{sync::mpsc, time::Instant};
 
 use super::peer::Peer;
 
-pub use chain::{ChainError, verify};
 pub use log::{AuditLog, FILE_NAME};
 
 /// Entries that may wait for the disk.
@@ -24,7 +24,7 @@ const CAPACITY: usize = 1_024;
 /// nobody can fill the disk from outside.
 const FAILURES_PER_MINUTE: u32 = 30;
 /// Longest text of one field, characters.
-const MAX_FIELD: usize = 256;
+pub(super) const MAX_FIELD: usize = 256;
 
 /// Where entries go; cheap to clone.
 #[derive(Clone, Debug)]
@@ -71,13 +71,13 @@ impl Entry {
         }
     }
 
-    /// What the server did of itself.
-    pub fn of_server(event: &'static str, result: &str) -> Self {
+    /// What the server did to `object` of itself.
+    pub fn of_server(event: &'static str, object: &str, result: &str) -> Self {
         Self {
             event,
             who: "server".to_owned(),
             from: String::new(),
-            object: String::new(),
+            object: cut(object),
             result: cut(result),
             n_left_out: 0,
         }

@@ -11,6 +11,6 @@ pub(super) mod refusal;
 pub mod server;
 pub mod sessions;
 #[cfg(test)]
-mod stage;
+pub(in crate::service) mod stage;
 pub mod status;
 pub mod takes;

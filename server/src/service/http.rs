@@ -6,11 +6,13 @@
 mod actors;
 mod call;
 mod curves;
+mod descriptors;
 mod docs;
 mod draining;
 mod events;
 mod fallback;
 mod frames;
+mod json;
 mod message;
 mod observe;
 mod openapi;

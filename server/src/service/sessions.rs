@@ -7,6 +7,7 @@ use std::{
     time::{Duration, SystemTime},
 };
 
+use frontalis_analysis::analyzer::NeutralSource;
 use frontalis_proto::v1;
 use rand::{TryRng as _, rngs::SysRng};
 use tokio::sync::Semaphore;
@@ -23,7 +24,7 @@ use crate::{
     },
     wire::{
         page::Page,
-        session::{CreateSession, ended, from_stored, live, to_stored},
+        session::{CreateSession, check_objective, ended, from_stored, live, to_stored},
     },
 };
 
@@ -118,7 +119,8 @@ impl Sessions {
             settings: to_stored(&request.settings),
         };
         // Before the turn: reading a package takes long, and nobody else should wait for it.
-        self.store.load_actor(&new.actor, newest.revision).await?;
+        let actor = self.store.load_actor(&new.actor, newest.revision).await?;
+        check_objective(&request.settings, actor.muscle_set())?;
         let _turn = self.turn().await;
         let row = self
             .store
@@ -213,6 +215,10 @@ impl Sessions {
             )),
             None => None,
         };
+        match &actor {
+            Some((actor, _)) => check_objective(&settings, actor.muscle_set())?,
+            None => check_objective(&settings, handle.actor().muscle_set())?,
+        }
         let before = (to_stored(&handle.settings()), handle.actor_revision());
         self.store
             .update_session(id, to_stored(&settings), revision)
@@ -238,14 +244,18 @@ impl Sessions {
         }
     }
 
-    /// Takes the next usable frames as the neutral face again.
+    /// Takes another neutral face: the next usable frames, or the quietest that were seen.
     ///
     /// # Errors
     ///
     /// As it goes over the wire.
-    pub async fn recenter(&self, id: &SessionId) -> Result<v1::Session, Status> {
+    pub async fn recenter(
+        &self,
+        id: &SessionId,
+        source: NeutralSource,
+    ) -> Result<v1::Session, Status> {
         let handle = self.handle(id).await?;
-        handle.recenter().await?;
+        handle.recenter(source).await?;
         tracing::info!(session = %id, "session recentered");
         Ok(live(&handle))
     }

@@ -2,7 +2,10 @@
 
 use std::sync::Arc;
 
-use frontalis_analysis::face::actor::Actor;
+use frontalis_analysis::{
+    analyzer::{NeutralSource, QuietestError},
+    face::actor::Actor,
+};
 use tokio::sync::oneshot;
 
 use super::{
@@ -24,8 +27,11 @@ pub(super) enum Command {
         actor_revision: u32,
         done: oneshot::Sender<()>,
     },
-    /// The next usable frames are the neutral face.
-    Recenter { done: oneshot::Sender<()> },
+    /// Another neutral face.
+    Recenter {
+        source: NeutralSource,
+        done: oneshot::Sender<Result<(), QuietestError>>,
+    },
     /// Nothing follows.
     End,
 }

@@ -2,6 +2,8 @@
 
 use std::time::Duration;
 
+use frontalis_analysis::analyzer::QuietestError;
+
 use crate::name::SessionId;
 
 /// Refusals of sessions and of their registry.
@@ -49,6 +51,9 @@ pub enum SessionError {
         /// How many the actor has.
         n_known: usize,
     },
+    /// The quietest frames cannot be taken as the neutral face.
+    #[error(transparent)]
+    Quietest(#[from] QuietestError),
     /// Too many requests wait for the session.
     #[error("{limit} requests wait for the session, the most that may")]
     Busy {

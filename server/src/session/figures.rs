@@ -1,11 +1,12 @@
-//! What a session knows about itself: settings in use, alignment, ranges and times. Written by its task, read by status.
+//! What a session knows about itself: settings in use, alignment, ranges, doubt and times. Written by its task, read by
+//! status.
 
 use std::sync::Arc;
 
 use frontalis_analysis::{
     curve::CurveSample,
     face::{actor::Actor, muscle::Muscle},
-    marker_analysis::alignment::Alignment,
+    marker_analysis::{alignment::Alignment, neutral_watch::NeutralDoubt, range::MuscleRange},
 };
 
 use super::{
@@ -24,8 +25,17 @@ pub(super) struct Figures {
     pub(super) alignment: Option<AlignmentReport>,
     pub(super) alignment_problem: Option<&'static str>,
     pub(super) unknown_markers: Vec<String>,
+    pub(super) judgement: Judgement,
     ranges: Vec<(f64, f64)>,
     stages: [Times; 4],
+}
+
+/// What the performance so far says of the basis and of the neutral face.
+#[derive(Debug, Default)]
+pub(super) struct Judgement {
+    /// One a muscle, in the actor's order; empty before the alignment.
+    pub(super) ranges: Vec<MuscleRange>,
+    pub(super) neutral_doubt: Option<NeutralDoubt>,
 }
 
 /// When a frame passed each station, server clock, nanoseconds.
@@ -50,6 +60,7 @@ impl Figures {
             alignment: restored.map(|it| report(&it.alignment)),
             alignment_problem: None,
             unknown_markers: Vec::new(),
+            judgement: Judgement::default(),
             ranges: Vec::new(),
             stages: Default::default(),
         }
@@ -79,6 +90,7 @@ impl Figures {
         status.latencies = self.latencies();
         status.actor_revision = self.actor_revision;
         status.ranges = self.ranges();
+        status.neutral_doubt = self.judgement.neutral_doubt;
         status.unknown_markers.clone_from(&self.unknown_markers);
     }
 
@@ -114,12 +126,16 @@ impl Figures {
 
     fn ranges(&self) -> Vec<ControlRange> {
         let muscles = self.actor.muscle_set().muscles().iter();
-        let range = |(muscle, (min, max)): (&Muscle, &(f64, f64))| ControlRange {
-            control: muscle.name.clone(),
-            min: *min,
-            max: *max,
+        let range = |(muscle_idx, (muscle, (min, max))): (usize, (&Muscle, &(f64, f64)))| {
+            let mut judged = self.judgement.ranges.iter();
+            ControlRange {
+                control: muscle.name.clone(),
+                min: *min,
+                max: *max,
+                judged: judged.find(|it| it.muscle == muscle_idx).copied(),
+            }
         };
-        muscles.zip(&self.ranges).map(range).collect()
+        muscles.zip(&self.ranges).enumerate().map(range).collect()
     }
 }
 

@@ -2,7 +2,7 @@
 
 use std::{collections::BTreeSet, sync::Arc, time::SystemTime};
 
-use frontalis_analysis::face::actor::Actor;
+use frontalis_analysis::{analyzer::NeutralSource, face::actor::Actor};
 use tokio::sync::oneshot;
 
 use super::{
@@ -135,15 +135,18 @@ impl SessionHandle {
         self.answered(is_done).await
     }
 
-    /// Takes the next usable frames as the neutral face again; returns when the old alignment is given up.
+    /// Takes another neutral face; returns when its frames are waited for, or when the quietest are in use.
+    ///
+    /// An alignment stays in use until the new one is known.
     ///
     /// # Errors
     ///
-    /// [`SessionError`] when the session takes no requests any more, or too many wait.
-    pub async fn recenter(&self) -> Result<(), SessionError> {
+    /// [`SessionError::Quietest`] when the quietest frames cannot be taken; else when the session takes no requests any
+    /// more, or too many wait.
+    pub async fn recenter(&self, source: NeutralSource) -> Result<(), SessionError> {
         let (done, is_done) = oneshot::channel();
-        self.ask(Command::Recenter { done })?;
-        self.answered(is_done).await
+        self.ask(Command::Recenter { source, done })?;
+        Ok(self.answered(is_done).await??)
     }
 
     fn ask(&self, command: Command) -> Result<(), SessionError> {
@@ -152,9 +155,9 @@ impl SessionHandle {
         Ok(())
     }
 
-    async fn answered(&self, is_done: oneshot::Receiver<()>) -> Result<(), SessionError> {
+    async fn answered<T>(&self, is_done: oneshot::Receiver<T>) -> Result<T, SessionError> {
         match is_done.await {
-            Ok(()) => Ok(()),
+            Ok(answer) => Ok(answer),
             Err(_gone) => {
                 let closed = self.shared.intake().closed().map(Closed::error);
                 Err(closed.unwrap_or(SessionError::Ended))

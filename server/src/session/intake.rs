@@ -25,7 +25,7 @@ use crate::{
 };
 
 /// Unusable frames in a row that end a publication (CONTRACTS D-10).
-const MAX_CONSECUTIVE_REJECTS: u32 = 100;
+pub(super) const MAX_CONSECUTIVE_REJECTS: u32 = 100;
 
 /// Why nothing more comes in.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -378,11 +378,21 @@ impl Intake {
 
     /// Ends the lease of a publication whose neutral face could not be aligned, and gives up its waiting frames.
     pub(super) fn give_up(&mut self, mailbox: &Mailbox, end: PublishEnd) {
+        let cause = match end {
+            PublishEnd::TooManyRejects { .. } => GapCause::Rejected,
+            _ => GapCause::NotAligned,
+        };
         mailbox.end(end);
         if self.check_lease(mailbox).is_ok() {
             self.lease = None;
         }
-        self.queue.give_up_frames(GapCause::NotAligned);
+        self.queue.give_up_frames(cause);
+    }
+
+    /// Refuses a frame that was taken before it could be seen to be unusable.
+    pub(super) fn reject_taken(&mut self, mailbox: &Mailbox, rejection: Rejection) {
+        self.counts.rejected += 1;
+        mailbox.reject(rejection);
     }
 
     pub(super) fn command(&mut self, command: Command) -> Result<(), SessionError> {

@@ -10,7 +10,7 @@ use std::{
 };
 
 use frontalis_analysis::{
-    analyzer::{MarkerAnalyzer, MarkerSettings, Progress},
+    analyzer::{MarkerAnalyzer, MarkerSettings, Progress, QuietestError},
     curve::CurveSample,
     face::{
         actor::Actor,
@@ -21,6 +21,7 @@ use frontalis_analysis::{
 };
 
 use super::{
+    figures::Judgement,
     frame::IncomingFrame,
     queue::WaitingFrame,
     settings::{RestoredAlignment, SessionSpec, StreamShape},
@@ -73,7 +74,7 @@ pub(super) struct Pipeline {
     actor: Arc<Actor>,
     settings: MarkerSettings,
     restored: Option<RestoredAlignment>,
-    /// Whether a neutral face was asked for that is not found yet. It outlives the analyzer, which is made anew for another
+    /// Whether a neutral face was asked for that was not tried yet. It outlives the analyzer, which is made anew for another
     /// stream and after a panic.
     recenter_requested: bool,
     source: Option<SourceOfFrames>,
@@ -139,10 +140,10 @@ impl Pipeline {
     ) -> MarkerAnalyzer {
         let actor = Arc::clone(&self.actor);
         let settings = self.settings.clone();
-        if let Some(alignment) = alignment {
-            return MarkerAnalyzer::resume(actor, settings, shape.unit, rate_hz, alignment);
-        }
-        let mut analyzer = MarkerAnalyzer::new(actor, settings, shape.unit, rate_hz);
+        let mut analyzer = match alignment {
+            Some(it) => MarkerAnalyzer::resume(actor, settings, shape.unit, rate_hz, it),
+            None => MarkerAnalyzer::new(actor, settings, shape.unit, rate_hz),
+        };
         if self.recenter_requested {
             analyzer.recenter();
         }
@@ -174,7 +175,7 @@ impl Pipeline {
             tag,
             received_nanos: waiting.received_nanos,
             started_nanos: now_nanos,
-            was_collected: false,
+            was_collected: source.analyzer.alignment().is_none(),
         }));
         let frame = MarkerFrame {
             index: FrameIndex(number),
@@ -185,7 +186,11 @@ impl Pipeline {
         // The analyzer is made anew after a panic, so nothing half changed is seen.
         match catch_unwind(AssertUnwindSafe(|| analyzer.push(frame, solved))) {
             Ok(Ok(progress)) => {
-                self.recenter_requested &= progress != Progress::Aligned;
+                let was_tried = matches!(progress, Progress::Aligned | Progress::RecenterFailed);
+                self.recenter_requested &= !was_tried;
+                if progress == Progress::ScaleJump {
+                    self.reject_newest(outcomes);
+                }
                 self.settle(progress, outcomes);
                 Step::Progress(progress)
             }
@@ -223,7 +228,7 @@ impl Pipeline {
     fn settle(&mut self, progress: Progress, outcomes: &mut Vec<Outcome>) {
         let mut solved = std::mem::take(&mut self.solved);
         for sample in solved.drain(..) {
-            self.settle_sample(sample, progress, outcomes);
+            self.settle_sample(sample, outcomes);
         }
         self.solved = solved;
         // Samples come for collected frames only; what else is still here will never have one.
@@ -232,12 +237,7 @@ impl Pipeline {
         }
     }
 
-    fn settle_sample(
-        &mut self,
-        sample: CurveSample,
-        progress: Progress,
-        outcomes: &mut Vec<Outcome>,
-    ) {
+    fn settle_sample(&mut self, sample: CurveSample, outcomes: &mut Vec<Outcome>) {
         let number = sample.frame.0;
         let is_awaited =
             |it: &Awaiting| matches!(it, Awaiting::Frame(note) if note.number == number);
@@ -246,8 +246,7 @@ impl Pipeline {
         }
         while let Some(oldest) = self.awaiting.pop_front() {
             match oldest {
-                Awaiting::Frame(mut note) if note.number == number => {
-                    note.was_collected = progress == Progress::Aligned;
+                Awaiting::Frame(note) if note.number == number => {
                     outcomes.push(Outcome::Sample(Box::new(sample), note));
                     return;
                 }
@@ -269,14 +268,24 @@ impl Pipeline {
         }
     }
 
+    /// The frame that was pushed last gives a gap; nothing before it is awaited any more.
+    fn reject_newest(&mut self, outcomes: &mut Vec<Outcome>) {
+        let newest = self.awaiting.pop_back();
+        self.give_up_awaiting(outcomes);
+        if let Some(Awaiting::Frame(note)) = newest {
+            outcomes.push(Outcome::Gap(Gap::of_frame(note.number, GapCause::Rejected)));
+        }
+    }
+
+    /// How many times the size of the face the last frame had, when it was not a face's.
+    pub(super) fn scale_jump(&self) -> Option<f64> {
+        self.source.as_ref()?.analyzer.scale_jump()
+    }
+
     /// After a panic: its frame gives a gap, the analyzer starts again from the alignment, if there is one.
     fn recover(&mut self, outcomes: &mut Vec<Outcome>) {
         self.solved.clear();
-        let broken = self.awaiting.pop_back();
-        self.give_up_awaiting(outcomes);
-        if let Some(Awaiting::Frame(note)) = broken {
-            outcomes.push(Outcome::Gap(Gap::of_frame(note.number, GapCause::Rejected)));
-        }
+        self.reject_newest(outcomes);
         if let Some(mut source) = self.source.take() {
             let alignment = source.analyzer.alignment().cloned();
             source.analyzer = self.analyzer(&source.shape, source.rate_hz, alignment);
@@ -284,16 +293,38 @@ impl Pipeline {
         }
     }
 
-    /// Takes the next usable frames as the neutral face again; returns whether an alignment was given up.
-    pub(super) fn recenter(&mut self, outcomes: &mut Vec<Outcome>) -> bool {
-        let had_alignment = self.alignment().is_some();
+    /// Takes the next usable frames as the neutral face. An alignment holds on until the new one is known; without one,
+    /// frames that were collected so far give gaps.
+    pub(super) fn recenter(&mut self, outcomes: &mut Vec<Outcome>) {
         self.give_up_awaiting(outcomes);
-        self.restored = None;
         self.recenter_requested = true;
         if let Some(source) = &mut self.source {
             source.analyzer.recenter();
         }
-        had_alignment
+    }
+
+    /// Takes the quietest frames seen so far as the neutral face, in place of any that was asked for.
+    pub(super) fn recenter_on_quietest(&mut self) -> Result<(), QuietestError> {
+        let source = self.source.as_mut().ok_or(QuietestError::NotAligned)?;
+        source.analyzer.recenter_on_quietest()?;
+        self.recenter_requested = false;
+        Ok(())
+    }
+
+    /// Why the neutral face that was asked for last could not be aligned, where an alignment holds on.
+    pub(super) fn recenter_error(&self) -> Option<&AlignmentError> {
+        self.source.as_ref()?.analyzer.recenter_error()
+    }
+
+    /// What the performance since the alignment says.
+    pub(super) fn judgement(&self) -> Judgement {
+        match &self.source {
+            Some(source) => Judgement {
+                ranges: source.analyzer.ranges(),
+                neutral_doubt: source.analyzer.neutral_doubt(),
+            },
+            None => Judgement::default(),
+        }
     }
 
     /// Changes settings or actor between two frames; an alignment is carried over.

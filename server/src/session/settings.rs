@@ -141,7 +141,7 @@ pub enum SessionEvent {
         /// Revision of the actor whose mesh it binds to.
         actor_revision: u32,
     },
-    /// The alignment was given up: recentered, or the publisher's unit or marker names changed.
+    /// The alignment was given up: the publisher's unit or marker names changed.
     AlignmentForgotten {
         /// Which session.
         id: SessionId,

@@ -1,5 +1,7 @@
 //! The state of a session in figures, for people and programs that watch over it.
 
+use frontalis_analysis::marker_analysis::{neutral_watch::NeutralDoubt, range::MuscleRange};
+
 use crate::hub::{Latency, SessionState, SubscriberStatus};
 
 /// A session's figures at one moment.
@@ -33,8 +35,11 @@ pub struct SessionStatus {
     pub markers_partial: u64,
     /// The alignment in use.
     pub alignment: Option<AlignmentReport>,
-    /// Why the neutral face could not be aligned: `UNITS_SUSPECT`, `MIRRORED`, ...
+    /// Why the last neutral face that was asked for could not be aligned: `UNITS_SUSPECT`, `MIRRORED`, ...
+    /// Where there is an alignment it holds on.
     pub alignment_problem: Option<&'static str>,
+    /// Why the face that was taken as neutral probably was not.
+    pub neutral_doubt: Option<NeutralDoubt>,
     /// Time spent in each stage.
     pub latencies: Vec<StageLatency>,
     /// Everyone who listens.
@@ -81,4 +86,6 @@ pub struct ControlRange {
     pub min: f64,
     /// Largest activation.
     pub max: f64,
+    /// What that says of its draft; `None` before the first look at it.
+    pub judged: Option<MuscleRange>,
 }

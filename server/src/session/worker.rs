@@ -5,7 +5,10 @@
 
 use std::{collections::VecDeque, panic::AssertUnwindSafe, sync::Arc};
 
-use frontalis_analysis::{analyzer::Progress, marker_analysis::alignment::AlignmentError};
+use frontalis_analysis::{
+    analyzer::{NeutralSource, Progress, QuietestError},
+    marker_analysis::alignment::AlignmentError,
+};
 use futures::FutureExt as _;
 use tokio::time::{Instant, sleep_until};
 
@@ -13,8 +16,10 @@ use super::{
     command::{Command, Source},
     figures::Passage,
     frame::Rejection,
-    intake::Closed,
+    intake::{Closed, MAX_CONSECUTIVE_REJECTS},
+    judging::JudgingPace,
     mailbox::Mailbox,
+    panic_count::PanicCount,
     pipeline::{Outcome, Pipeline, Step},
     publication::PublishEnd,
     queue::{WaitingFrame, Work},
@@ -23,10 +28,6 @@ use super::{
 };
 use crate::hub::{Closing, Outgoing, PublishedSample, SessionState};
 
-/// Panics in this span that make a session fail (CONTRACTS O-8).
-const MAX_PANICS: usize = 3;
-/// See [`MAX_PANICS`].
-const PANIC_SPAN_NANOS: i64 = 10_000_000_000;
 /// Work done before other tasks of the runtime get their turn.
 const WORK_PER_TURN: u32 = 16;
 
@@ -89,6 +90,9 @@ struct Worker {
     rate_hz: f64,
     last_received_nanos: i64,
     panics: PanicCount,
+    /// Frames at another scale, in a row.
+    n_scale_jumps: u32,
+    judging: JudgingPace,
     outcomes: Vec<Outcome>,
     outgoing: Vec<Outgoing>,
 }
@@ -112,6 +116,8 @@ impl Worker {
             rate_hz: 1.0,
             last_received_nanos: 0,
             panics: PanicCount::default(),
+            n_scale_jumps: 0,
+            judging: JudgingPace::default(),
             outcomes: Vec::new(),
             outgoing: Vec::new(),
         }
@@ -147,20 +153,30 @@ impl Worker {
         }
     }
 
-    /// Waits for work; a live session that gets none for too long is stale.
+    /// Waits for work; a live session that gets none for too long is stale, and its last samples are judged in time.
     async fn wait(&mut self) {
         let work = self.shared.work.notified();
-        if self.state != SessionState::Live {
-            return work.await;
-        }
         let stale_nanos = self
             .last_received_nanos
             .saturating_add(self.stale_after_nanos);
-        let stale: Instant = self.shared.clock.instant_at(stale_nanos);
+        let stale_nanos = (self.state == SessionState::Live).then_some(stale_nanos);
+        let judging_nanos = self.judging.due_nanos();
+        let at = |nanos: Option<i64>| -> Instant {
+            self.shared.clock.instant_at(nanos.unwrap_or_default())
+        };
         tokio::select! {
             () = work => {}
-            () = sleep_until(stale) => self.enter(SessionState::Stale),
+            () = sleep_until(at(stale_nanos)), if stale_nanos.is_some() => {
+                self.enter(SessionState::Stale);
+            }
+            () = sleep_until(at(judging_nanos)), if judging_nanos.is_some() => self.judge(),
         }
+    }
+
+    /// Looks at what the performance says of the basis and the neutral face.
+    fn judge(&mut self) {
+        self.judging.judged(self.shared.clock.now_nanos());
+        self.shared.figures().judgement = self.pipeline.judgement();
     }
 
     async fn solve(&mut self, waiting: WaitingFrame) -> Next {
@@ -170,13 +186,22 @@ impl Worker {
         let step = self.pipeline.push(waiting, now_nanos, &mut self.outcomes);
         if let Step::Progress(progress) = &step {
             self.enter(state_after(*progress));
+            if *progress != Progress::ScaleJump {
+                self.n_scale_jumps = 0;
+            }
         }
         self.publish();
         match step {
             Step::Progress(Progress::Aligned) => self.aligned().await,
+            Step::Progress(Progress::RecenterFailed) => self.not_recentered(),
+            Step::Progress(Progress::ScaleJump) => self.scale_jumped(number),
             Step::Progress(_) => {}
             Step::NotAligned(error) => self.not_aligned(error),
             Step::Panicked => return self.panicked(number).await,
+        }
+        let now_nanos = self.shared.clock.now_nanos();
+        if self.judging.due_nanos().is_some_and(|it| it <= now_nanos) {
+            self.judge();
         }
         Next::More
     }
@@ -190,6 +215,7 @@ impl Worker {
                 Outcome::Gap(gap) => Outgoing::Gap(gap),
                 Outcome::Sample(sample, note) => {
                     figures.sampled(&sample);
+                    self.judging.sampled();
                     if !note.was_collected {
                         passages.push_back((note.received_nanos, note.started_nanos));
                     }
@@ -235,7 +261,41 @@ impl Worker {
             shape: shape.clone(),
             actor_revision: self.actor_revision,
         };
+        self.judge();
         self.shared.tell(event).await;
+    }
+
+    /// The new neutral face could not be aligned; the old one holds on, and the stream goes on.
+    fn not_recentered(&mut self) {
+        let reason = self.pipeline.recenter_error().map(alignment_problem);
+        tracing::info!(reason, "not recentered");
+        self.shared.figures().alignment_problem = reason;
+    }
+
+    /// The capture's unit has changed: the frame is refused, and after many in a row the publication ends (CONTRACTS D-10).
+    fn scale_jumped(&mut self, number: u64) {
+        self.n_scale_jumps += 1;
+        let Some(mailbox) = &self.mailbox else {
+            return;
+        };
+        let times = self.pipeline.scale_jump().unwrap_or_default();
+        let mut intake = self.shared.intake();
+        let detail = format!(
+            "the face is {times:.3} times as large as the neutral one: has the unit changed?"
+        );
+        let reason = "SCALE_JUMP";
+        intake.reject_taken(
+            mailbox,
+            Rejection {
+                number,
+                reason,
+                detail,
+            },
+        );
+        if self.n_scale_jumps >= MAX_CONSECUTIVE_REJECTS {
+            let n_rejects = MAX_CONSECUTIVE_REJECTS;
+            intake.give_up(mailbox, PublishEnd::TooManyRejects { n_rejects });
+        }
     }
 
     fn not_aligned(&mut self, error: AlignmentError) {
@@ -251,6 +311,7 @@ impl Worker {
 
     async fn alignment_forgotten(&mut self) {
         self.shared.figures().alignment = None;
+        self.judge();
         let (id, run) = (self.shared.id.clone(), self.shared.run);
         let event = SessionEvent::AlignmentForgotten { id, run };
         self.shared.tell(event).await;
@@ -273,18 +334,17 @@ impl Worker {
     }
 
     async fn obey(&mut self, command: Command) -> Next {
+        if self.judging.is_old() {
+            // Whoever asks for the status after this command sees all frames before it.
+            self.judge();
+        }
         match command {
             Command::Source(source) => self.read_from(source).await,
             Command::Finish(mailbox) => mailbox.finish(),
-            Command::Recenter { done } => {
-                let was_aligned = self.pipeline.recenter(&mut self.outcomes);
-                self.enter(SessionState::Waiting);
-                self.publish();
-                if was_aligned {
-                    self.alignment_forgotten().await;
-                }
+            Command::Recenter { source, done } => {
+                let recentered = self.recenter(source).await;
                 // Whoever asked may have gone.
-                let _gone = done.send(());
+                let _gone = done.send(recentered);
             }
             Command::Update {
                 settings,
@@ -315,6 +375,24 @@ impl Worker {
         Next::More
     }
 
+    async fn recenter(&mut self, source: NeutralSource) -> Result<(), QuietestError> {
+        match source {
+            NeutralSource::NextFrames => {
+                self.pipeline.recenter(&mut self.outcomes);
+                self.shared.figures().alignment_problem = None;
+                if self.pipeline.alignment().is_none() {
+                    self.enter(SessionState::Waiting);
+                }
+                self.publish();
+            }
+            NeutralSource::QuietestFrames => {
+                self.pipeline.recenter_on_quietest()?;
+                self.aligned().await;
+            }
+        }
+        Ok(())
+    }
+
     async fn read_from(&mut self, source: Source) {
         self.rate_hz = source.rate_hz;
         self.stale_after_nanos = self.shared.stale_after_nanos(source.rate_hz);
@@ -341,7 +419,9 @@ fn state_after(progress: Progress) -> SessionState {
     match progress {
         Progress::Waiting => SessionState::Waiting,
         Progress::Collecting { .. } => SessionState::Aligning,
-        Progress::Aligned | Progress::Solved => SessionState::Live,
+        Progress::Aligned | Progress::Solved | Progress::ScaleJump | Progress::RecenterFailed => {
+            SessionState::Live
+        }
     }
 }
 
@@ -352,37 +432,5 @@ pub fn alignment_problem(error: &AlignmentError) -> &'static str {
         AlignmentError::Mirrored => "MIRRORED",
         AlignmentError::NeutralIncomplete { .. } => "NEUTRAL_INCOMPLETE",
         AlignmentError::Degenerate => "DEGENERATE_POSE",
-    }
-}
-
-/// When the last panics were.
-#[derive(Debug, Default)]
-struct PanicCount {
-    recent_nanos: VecDeque<i64>,
-}
-
-impl PanicCount {
-    /// Counts one more.
-    fn is_too_many(&mut self, now_nanos: i64) -> bool {
-        self.recent_nanos.push_back(now_nanos);
-        self.recent_nanos
-            .retain(|it| now_nanos - it <= PANIC_SPAN_NANOS);
-        self.recent_nanos.len() >= MAX_PANICS
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn three_panics_in_ten_seconds_are_too_many() {
-        let second = 1_000_000_000;
-        let mut panics = PanicCount::default();
-        assert!(!panics.is_too_many(0));
-        assert!(!panics.is_too_many(5 * second));
-        assert!(!panics.is_too_many(11 * second));
-        assert!(!panics.is_too_many(16 * second));
-        assert!(panics.is_too_many(17 * second));
     }
 }

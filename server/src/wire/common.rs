@@ -6,7 +6,10 @@ use frontalis_analysis::{
 };
 use frontalis_proto::v1;
 
-use super::invalid::{FieldError, FieldProblem};
+use super::{
+    actor::finite,
+    invalid::{FieldError, FieldProblem},
+};
 use crate::hub::{SessionState, Timecode};
 
 /// The unit that a publisher must declare: a wrong guess is off by a factor of ten.
@@ -95,6 +98,15 @@ pub fn head_pose(pose: &HeadPose) -> v1::HeadPose {
         ty_cm: pose.translation_cm.y as f32,
         tz_cm: pose.translation_cm.z as f32,
     }
+}
+
+/// A figure as the wire's `float`: finite, whatever it was (CONTRACTS N-0).
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "the wire has f32; the clamp keeps what is finite so"
+)]
+pub fn narrow(figure: f64) -> f32 {
+    (finite(figure) as f32).clamp(f32::MIN, f32::MAX)
 }
 
 #[cfg(test)]

@@ -1,9 +1,10 @@
-//! `curve.proto`: what a subscriber asks for, and samples on their way out.
-//!
-//! Nothing that is not finite leaves here (CONTRACTS N-1): activations are inside their box by the solver's promise, and
-//! are clamped to it after rounding to f32.
+//! `curve.proto`: what a subscriber asks for, and what it is answered.
 
-use frontalis_analysis::curve::{CurveSample, HeldReason, Quality, RegionReport};
+mod sample;
+
+use frontalis_analysis::{
+    analyzer::MarkerSettings, face::muscle::Muscle, marker_analysis::objective::MuscleBounds,
+};
 use frontalis_proto::v1;
 
 use super::{
@@ -11,12 +12,12 @@ use super::{
     invalid::{FieldError, FieldProblem},
 };
 use crate::{
-    hub::{
-        Delivery, Gap, GapCause, Page, PublishedSample, StartAt, StreamState, SubscribeSpec, Update,
-    },
+    hub::{Delivery, Gap, GapCause, Page, StartAt, StreamState, SubscribeSpec, Update},
     name::{DisplayName, SessionId},
     session::SessionHandle,
 };
+
+pub use sample::{SampleDetail, sample_to_wire, samples_in_a_response};
 
 /// What a subscriber asks for, checked.
 #[derive(Clone, Debug)]
@@ -29,63 +30,26 @@ pub struct SubscribeRequest {
     pub detail: SampleDetail,
 }
 
-/// What a sample holds beside the activations.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct SampleDetail {
-    /// The markers, as seen and as reproduced.
-    pub with_markers: bool,
-}
-
-/// A response stays below about so much in either form: several of them may wait for a slow reader (CONTRACTS D-20).
-const RESPONSE_BYTES: usize = 64 * 1024;
-/// A number with its comma, in JSON, which is the longer form.
-const NUMBER_BYTES: usize = 13;
-/// What a sample holds beside its activations and markers.
-const SAMPLE_BYTES: usize = 1_024;
-
-/// Samples of that many muscles and markers that go into one response.
-pub fn samples_in_a_response(n_muscles: usize, n_markers: usize, detail: SampleDetail) -> usize {
-    // Six coordinates and an index for each marker.
-    let n_of_markers = if detail.with_markers {
-        7 * n_markers
-    } else {
-        0
-    };
-    let n_bytes = SAMPLE_BYTES + NUMBER_BYTES * (n_muscles + n_of_markers);
-    (RESPONSE_BYTES / n_bytes).max(1)
-}
-
-/// Why a subscriber's request is refused.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum SubscribeRefusal {
-    /// A field is wrong.
-    #[error(transparent)]
-    Invalid(#[from] FieldError),
-    /// Asked for something that this version does not do.
-    #[error("{what} is not implemented")]
-    NotImplemented {
-        /// What was asked for.
-        what: &'static str,
-    },
-}
-
 /// Checks a subscriber's start, which came over `protocol`; `peer` names a subscriber that gives no name. `credits` are ignored where the subscriber
 /// cannot return them.
 ///
 /// # Errors
 ///
-/// [`SubscribeRefusal`] names the first field that is wrong or not implemented.
+/// [`FieldError`] names the first field that is wrong or not implemented.
 pub fn start(
     sent: &v1::SubscribeStart,
     peer: String,
     protocol: &'static str,
     can_return_credits: bool,
-) -> Result<SubscribeRequest, SubscribeRefusal> {
+) -> Result<SubscribeRequest, FieldError> {
     let session = SessionId::from_resource(&sent.session).map_err(FieldError::name("session"))?;
     let name = DisplayName::parse("subscriber", &sent.subscriber)
         .map_err(FieldError::name("subscriber"))?;
     check_control_space(sent.control_space)?;
-    let detail = detail(sent.with_uncertainty, sent.with_markers)?;
+    let detail = SampleDetail {
+        with_uncertainty: sent.with_uncertainty,
+        with_markers: sent.with_markers,
+    };
     let delivery = delivery(sent, can_return_credits)?;
     let name = name.into_string();
     Ok(SubscribeRequest {
@@ -122,15 +86,15 @@ const READ_SAMPLES: [u32; 2] = [100, 1_000];
 ///
 /// # Errors
 ///
-/// [`SubscribeRefusal`] names the first field that is wrong or not implemented.
-pub fn read(sent: &v1::ReadCurvesRequest) -> Result<ReadRequest, SubscribeRefusal> {
+/// [`FieldError`] names the first field that is wrong or not implemented.
+pub fn read(sent: &v1::ReadCurvesRequest) -> Result<ReadRequest, FieldError> {
     let [usual, most] = READ_SAMPLES;
     let limit = match sent.limit {
         0 => usual,
         limit if limit <= most => limit,
         _ => {
             let detail = "at most 1,000 samples are read at once";
-            return Err(FieldError::unusable("limit", "LIMIT", detail).into());
+            return Err(FieldError::unusable("limit", "LIMIT", detail));
         }
     };
     Ok(ReadRequest {
@@ -138,32 +102,20 @@ pub fn read(sent: &v1::ReadCurvesRequest) -> Result<ReadRequest, SubscribeRefusa
         run: (sent.run != 0).then_some(sent.run),
         after: sent.after,
         limit: limit as usize,
-        detail: detail(sent.with_uncertainty, sent.with_markers)?,
+        detail: SampleDetail {
+            with_uncertainty: sent.with_uncertainty,
+            with_markers: sent.with_markers,
+        },
     })
 }
 
-fn detail(with_uncertainty: bool, with_markers: bool) -> Result<SampleDetail, SubscribeRefusal> {
-    if with_uncertainty {
-        return Err(SubscribeRefusal::NotImplemented {
-            what: "with_uncertainty",
-        });
-    }
-    Ok(SampleDetail { with_markers })
-}
-
-fn check_control_space(number: i32) -> Result<(), SubscribeRefusal> {
-    match v1::ControlSpace::try_from(number) {
-        Ok(v1::ControlSpace::Unspecified | v1::ControlSpace::Muscles) => Ok(()),
-        Ok(v1::ControlSpace::Facs) => Err(SubscribeRefusal::NotImplemented {
-            what: "CONTROL_SPACE_FACS",
-        }),
-        Ok(v1::ControlSpace::Arkit) => Err(SubscribeRefusal::NotImplemented {
-            what: "CONTROL_SPACE_ARKIT",
-        }),
-        Err(_unknown) => {
-            Err(FieldError::new("control_space", FieldProblem::UnknownEnum(number)).into())
-        }
-    }
+fn check_control_space(number: i32) -> Result<(), FieldError> {
+    let problem = match v1::ControlSpace::try_from(number) {
+        Ok(v1::ControlSpace::Unspecified | v1::ControlSpace::Muscles) => return Ok(()),
+        Ok(v1::ControlSpace::Facs | v1::ControlSpace::Arkit) => FieldProblem::NotImplemented,
+        Err(_unknown) => FieldProblem::UnknownEnum(number),
+    };
+    Err(FieldError::new("control_space", problem))
 }
 
 fn delivery(sent: &v1::SubscribeStart, can_return_credits: bool) -> Result<Delivery, FieldError> {
@@ -203,29 +155,33 @@ pub fn header(
     unix_offset_nanos: i64,
 ) -> v1::CurveHeader {
     let actor = session.actor();
-    let upper = if session.settings().marker.allow_exaggeration {
-        2.0
-    } else {
-        1.0
-    };
+    let settings = session.settings().marker;
     let muscles = actor.muscle_set().muscles().iter();
-    let control = |muscle: &frontalis_analysis::face::muscle::Muscle| v1::Control {
-        name: muscle.name.clone(),
-        region: common::face_region(muscle.region).into(),
-        driven: true,
-        lower: 0.0,
-        upper,
-    };
     v1::CurveHeader {
         session: session.id().resource(),
         actor: session.actor_id().resource(),
         muscle_set: actor.muscle_set().id().to_owned(),
         actor_revision: session.actor_revision(),
-        controls: muscles.map(control).collect(),
+        controls: muscles.map(|it| control(it, &settings)).collect(),
         nominal_rate_hz: session.nominal_rate_hz(),
         server_time_nanos,
         run: session.run(),
         unix_offset_nanos,
+    }
+}
+
+fn control(muscle: &Muscle, settings: &MarkerSettings) -> v1::Control {
+    let mut bounds = settings.objective.bounds.iter();
+    let own = bounds.find(|it| it.muscle == muscle.name);
+    let (lower, upper) = own.map_or((0.0, settings.upper_bound()), |it: &MuscleBounds| {
+        (it.lower, it.upper)
+    });
+    v1::Control {
+        name: muscle.name.clone(),
+        region: common::face_region(muscle.region).into(),
+        driven: true,
+        lower: common::narrow(lower),
+        upper: common::narrow(upper),
     }
 }
 
@@ -273,77 +229,6 @@ pub fn gap_to_wire(gap: &Gap) -> v1::Gap {
     }
 }
 
-/// A sample on the wire.
-pub fn sample_to_wire(published: &PublishedSample, detail: SampleDetail) -> v1::CurveSample {
-    let PublishedSample {
-        sample,
-        tag,
-        sequence,
-        solved_time_nanos,
-        actor_revision,
-    } = published;
-    let mut wire = v1::CurveSample {
-        frame: sample.frame.0,
-        capture_time_nanos: sample.capture_time_nanos,
-        timecode: tag.timecode.as_ref().map(common::timecode_to_wire),
-        activations: sample.activations.iter().map(|it| to_f32(*it)).collect(),
-        region_errors: sample.regions.iter().map(region_to_wire).collect(),
-        head: sample.head.as_ref().map(common::head_pose),
-        quality: quality(sample.quality).into(),
-        solved_time_nanos: *solved_time_nanos,
-        actor_revision: *actor_revision,
-        sequence: *sequence,
-        held_frames: sample.held_frames,
-        source_frame: tag.source_frame,
-        unobserved: indices(&sample.unobserved),
-        ..v1::CurveSample::default()
-    };
-    if tag.time_non_monotonic {
-        wire.flags.push(v1::SampleFlag::TimeNonMonotonic.into());
-    }
-    if tag.timecode_invalid {
-        wire.flags.push(v1::SampleFlag::TimecodeInvalid.into());
-    }
-    if detail.with_markers {
-        add_markers(sample, &mut wire);
-    }
-    wire
-}
-
-fn add_markers(sample: &CurveSample, wire: &mut v1::CurveSample) {
-    let trace = &sample.markers;
-    wire.observed_cm.clone_from(&trace.observed_cm);
-    wire.reproduced_cm.clone_from(&trace.reproduced_cm);
-    wire.observed_markers = indices(&trace.markers);
-}
-
-/// Indices of muscles and markers, of which there are far fewer than 2^32.
-fn indices(indices: &[usize]) -> Vec<u32> {
-    let index = |it: &usize| u32::try_from(*it).unwrap_or(u32::MAX);
-    indices.iter().map(index).collect()
-}
-
-fn region_to_wire(report: &RegionReport) -> v1::RegionError {
-    v1::RegionError {
-        region: common::face_region(report.region).into(),
-        marker_error_cm: to_f32(report.marker_error_cm),
-        n_markers: u32::try_from(report.n_markers).unwrap_or(u32::MAX),
-        quality: quality(report.quality).into(),
-        held_reason: report
-            .held_reason
-            .map_or_else(String::new, |it: HeldReason| it.identifier().to_owned()),
-        quality_fraction: to_f32(report.quality_fraction),
-    }
-}
-
-fn quality(quality: Quality) -> v1::Quality {
-    match quality {
-        Quality::Solved => v1::Quality::Solved,
-        Quality::Partial => v1::Quality::Partial,
-        Quality::Held => v1::Quality::Held,
-    }
-}
-
 /// Part of a session's curves, for readers without a stream.
 pub fn page_to_wire(
     page: &Page,
@@ -359,12 +244,6 @@ pub fn page_to_wire(
         newest_sequence: page.newest_sequence,
         state: Some(state_to_wire(&page.state)),
     }
-}
-
-/// The bounds 0, 1 and 2 are exact in f32, so rounding keeps a value inside its box.
-#[expect(clippy::cast_possible_truncation, reason = "the wire has f32")]
-fn to_f32(value: f64) -> f32 {
-    value as f32
 }
 
 #[cfg(test)]

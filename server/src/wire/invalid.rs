@@ -1,13 +1,32 @@
 //! A field of a request that cannot be used: which, and why.
 
+use std::fmt;
+
 use crate::name::NameError;
 
 /// A refused field.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
-#[error("{field}: {problem}")]
+#[error("{path}: {problem}")]
 pub struct FieldError {
-    field: &'static str,
+    path: FieldPath,
     problem: FieldProblem,
+}
+
+/// Where a field stands in its request: `start.unit`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct FieldPath {
+    /// The message that holds it, if that is not the request itself.
+    parent: Option<&'static str>,
+    field: &'static str,
+}
+
+impl fmt::Display for FieldPath {
+    fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
+        if let Some(parent) = self.parent {
+            write!(formatter, "{parent}.")?;
+        }
+        formatter.write_str(self.field)
+    }
 }
 
 /// What is wrong with a field. The client's text is never repeated.
@@ -61,7 +80,16 @@ pub enum FieldProblem {
 impl FieldError {
     /// A refused field.
     pub fn new(field: &'static str, problem: FieldProblem) -> Self {
-        Self { field, problem }
+        let parent = None;
+        let path = FieldPath { parent, field };
+        Self { path, problem }
+    }
+
+    /// The same field of a message that is itself a field of the request.
+    #[must_use]
+    pub fn inside(mut self, parent: &'static str) -> Self {
+        self.path.parent = Some(parent);
+        self
     }
 
     /// A field with its reason, and what is wrong with it.
@@ -75,9 +103,14 @@ impl FieldError {
         move |error| Self::new(field, FieldProblem::Name(error))
     }
 
-    /// The field's name in the request.
+    /// The field's own name.
     pub fn field(&self) -> &'static str {
-        self.field
+        self.path.field
+    }
+
+    /// Where the field stands in the request.
+    pub fn path(&self) -> FieldPath {
+        self.path
     }
 
     /// What is wrong with it.

@@ -5,6 +5,7 @@ mod status;
 
 use std::time::SystemTime;
 
+use frontalis_analysis::analyzer::NeutralSource;
 use frontalis_proto::v1;
 
 use super::{
@@ -17,7 +18,7 @@ use crate::{
     session::{SessionHandle, SessionSettings},
 };
 
-pub use settings::{apply, effective};
+pub use settings::{apply, check_objective, effective};
 pub use status::state_name;
 
 /// A request to create a session, checked.
@@ -60,6 +61,21 @@ fn check_kind(kind: i32) -> Result<(), FieldError> {
         Ok(v1::CaptureKind::Images) => refuse(FieldProblem::NotImplemented),
         Ok(v1::CaptureKind::Unspecified) => refuse(FieldProblem::Missing),
         Err(_) => refuse(FieldProblem::UnknownEnum(kind)),
+    }
+}
+
+/// Where a request to recenter wants the neutral face from.
+///
+/// # Errors
+///
+/// `ENUM` when the source is not known.
+pub fn neutral_source(number: i32) -> Result<NeutralSource, FieldError> {
+    match v1::NeutralSource::try_from(number) {
+        Ok(v1::NeutralSource::Unspecified | v1::NeutralSource::NextFrames) => {
+            Ok(NeutralSource::NextFrames)
+        }
+        Ok(v1::NeutralSource::QuietestFrames) => Ok(NeutralSource::QuietestFrames),
+        Err(_unknown) => Err(FieldError::new("source", FieldProblem::UnknownEnum(number))),
     }
 }
 

@@ -118,7 +118,7 @@ async fn curves_over_http_name_their_run_and_refuse_another() {
     let (status, body) = stage.get("/api/v1/sessions/s/curves?run=1&after=77").await;
     let body = json(&body);
     assert_eq!(
-        (status, &body["first_available"]),
+        (status, &body["firstAvailable"]),
         (416, &1.into()),
         "{body}"
     );

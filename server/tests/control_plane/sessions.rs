@@ -70,7 +70,10 @@ async fn the_id_of_an_ended_session_starts_a_new_run() {
     assert_eq!(ended.status.unwrap().state(), v1::SessionState::Ended);
     let ended = end(&stage, "s").await;
     assert_eq!(ended.status.unwrap().state(), v1::SessionState::Ended);
-    let recenter = v1::RecenterSessionRequest { name: name("s") };
+    let recenter = v1::RecenterSessionRequest {
+        name: name("s"),
+        ..Default::default()
+    };
     let refused = stage.sessions().recenter_session(recenter).await;
     assert_eq!(
         refusal(refused),
@@ -129,18 +132,71 @@ async fn settings_change_by_presence_and_by_mask() {
         (settings.neutral_frames, settings.allow_exaggeration),
         (Some(15), Some(true))
     );
-    let smoothing = v1::SessionSettings {
-        smoothing: Some(0.5),
+    let too_smooth = v1::SessionSettings {
+        smoothing: Some(1.5),
         ..Default::default()
     };
     let refused = stage
         .sessions()
-        .update_session(update(smoothing, &[]))
+        .update_session(update(too_smooth, &[]))
         .await;
     assert_eq!(
         refusal(refused),
-        (Code::Unimplemented, "NOT_IMPLEMENTED".into())
+        (Code::InvalidArgument, "SOLVER_OPTIONS".into())
     );
+    let unchanged = get(&stage, "s").await.unwrap().settings.unwrap();
+    assert_eq!(unchanged, settings);
+}
+
+#[tokio::test]
+async fn the_terms_of_the_objective_outlive_a_restart() {
+    let dir = tempfile::tempdir().unwrap();
+    let data_dir = dir.path().to_str().unwrap().to_owned();
+    let first = Stage::with(|config| config.data_dir.clone_from(&data_dir)).await;
+    let created = first.create("default").await.settings.unwrap();
+    assert_eq!(
+        (created.smoothing, created.sparsity, created.symmetry),
+        (Some(0.5), Some(0.5), Some(0.0))
+    );
+    assert_eq!((created.robust, created.plain), (Some(true), Some(false)));
+    let mut plain = create("plain");
+    plain.settings = Some(v1::SessionSettings {
+        plain: Some(true),
+        ..Default::default()
+    });
+    first.sessions().create_session(plain).await.unwrap();
+    let mut own = create("own");
+    own.settings = Some(v1::SessionSettings {
+        smoothing: Some(0.3),
+        symmetry: Some(0.1),
+        bounds: vec![v1::ControlBounds {
+            control: "jaw_rotation".into(),
+            lower: 0.1,
+            upper: 0.7,
+        }],
+        exclusive_pairs: vec![v1::ControlPair {
+            first: "lips_pressor".into(),
+            second: "orbicularis_oris".into(),
+        }],
+        ..Default::default()
+    });
+    first.sessions().create_session(own).await.unwrap();
+    let before = [
+        get(&first, "default").await.unwrap().settings,
+        get(&first, "plain").await.unwrap().settings,
+        get(&first, "own").await.unwrap().settings,
+    ];
+    let plain = before[1].clone().unwrap();
+    assert_eq!(
+        (plain.plain, plain.robust, plain.smoothing),
+        (Some(true), Some(false), Some(0.0))
+    );
+    assert!(first.stop().await);
+
+    let again = Stage::with(|config| config.data_dir.clone_from(&data_dir)).await;
+    for (id, before) in ["default", "plain", "own"].into_iter().zip(before) {
+        assert_eq!(get(&again, id).await.unwrap().settings, before, "{id}");
+    }
 }
 
 #[tokio::test]

@@ -197,5 +197,7 @@ const last = await publish();
 await showTheLatest(last);
 await everySample(last, 20);
 await refusals();
+// Its id is free for a new run then, so that this client can be run again.
 await call("POST", `/sessions/${session}/end`);
+console.log("end: the session ended");
 process.exit(0);

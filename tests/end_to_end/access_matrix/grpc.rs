@@ -1,110 +1,125 @@
-//! Every method of the descriptors, called with bytes: one message, then the end of the client's side.
+//! Every method of the descriptors of every service that the server has, called with bytes: the messages, then the end
+//! of the client's side.
 
-use std::time::Duration;
+use std::{collections::BTreeSet, time::Duration};
 
-use frontalis_access::Token;
-use frontalis_proto::{FILE_DESCRIPTOR_SET, v1};
-use harness::{Problem, TestServer};
-use prost::Message;
-use tonic::{
-    Code, Request, Status,
-    client::Grpc,
-    codec::{BufferSettings, Codec, DecodeBuf, Decoder, EncodeBuf, Encoder},
+use frontalis_proto::v1;
+use harness::Problem;
+use prost::Message as _;
+use prost_types::{FileDescriptorProto, FileDescriptorSet};
+use tonic::{Code, Request, Status, client::Grpc, transport::Channel};
+use tonic_reflection::pb::v1::{
+    ServerReflectionResponse, server_reflection_response::MessageResponse,
 };
 
 use super::{
-    Object, Outcome,
-    rules::{May, Rule},
+    Outcome, Stage,
+    bytes::Bytes,
+    callers::Caller,
+    messages::{Variant, messages},
 };
 
 /// No answer takes longer.
 const PATIENCE: Duration = Duration::from_secs(20);
 
-/// How a method is called, where there is more than one way that matters.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Variant {
-    Plain,
-    /// With `takeover`, which an operator may.
-    Takeover,
-}
+const DESCRIPTORS: [&[u8]; 4] = [
+    frontalis_proto::FILE_DESCRIPTOR_SET,
+    tonic_health::pb::FILE_DESCRIPTOR_SET,
+    tonic_reflection::pb::v1::FILE_DESCRIPTOR_SET,
+    tonic_reflection::pb::v1alpha::FILE_DESCRIPTOR_SET,
+];
 
-impl Variant {
-    pub(super) fn suffix(self) -> &'static str {
-        match self {
-            Self::Plain => "",
-            Self::Takeover => " (takeover)",
-        }
-    }
-
-    pub(super) fn rule(self, rule: Rule) -> Rule {
-        let mut rule = rule;
-        if self == Self::Takeover {
-            rule.may[0] = May::Everywhere;
-        }
-        rule
-    }
-}
-
-pub(super) fn variants(method: &str) -> Vec<Variant> {
-    match method {
-        "frontalis.v1.CaptureService/PublishMarkers" => vec![Variant::Plain, Variant::Takeover],
-        _ => vec![Variant::Plain],
-    }
-}
-
-/// Every method, `frontalis.v1.Service/Method`; those that end or change what others ask for come last.
+/// Every method, `package.Service/Method`.
 pub(super) fn methods() -> Vec<String> {
-    let set = prost_types::FileDescriptorSet::decode(FILE_DESCRIPTOR_SET).unwrap();
+    let sets = DESCRIPTORS.map(|it| FileDescriptorSet::decode(it).unwrap());
+    let files = sets.iter().flat_map(|it| &it.file);
+    files.flat_map(methods_of).collect()
+}
+
+fn methods_of(file: &FileDescriptorProto) -> Vec<String> {
     let mut methods = Vec::new();
-    for file in &set.file {
-        for service in &file.service {
-            for method in &service.method {
-                let (service, method) = (service.name(), method.name());
-                methods.push(format!("{}.{service}/{method}", file.package()));
-            }
+    for service in &file.service {
+        for method in &service.method {
+            let (service, method) = (service.name(), method.name());
+            methods.push(format!("{}.{service}/{method}", file.package()));
         }
     }
-    methods.sort_by_key(|it| it.ends_with("/EndSession"));
     methods
 }
 
-/// Whether the server knows a token by now.
-pub(super) async fn is_known(server: &TestServer, token: &Token) -> bool {
+/// Whether the server knows a caller by now.
+pub(super) async fn is_known(stage: &Stage, caller: &Caller) -> bool {
+    let channel = caller.channel(&stage.server).await;
     let method = "frontalis.v1.ServerService/GetServer";
-    let outcome = call(server, Some(token), method, Variant::Plain, Object::Own).await;
-    outcome.reason.is_empty()
+    let call = Call {
+        method,
+        variant: Variant::Plain,
+        id: "",
+        package: b"",
+    };
+    call.outcome(channel, caller).await.is_success()
 }
 
-/// Calls a method on an object and waits for its first answer.
-pub(super) async fn call(
-    server: &TestServer,
-    token: Option<&Token>,
-    method: &str,
-    variant: Variant,
-    object: Object,
-) -> Outcome {
-    let mut grpc = Grpc::new(server.bare_channel().await);
-    grpc.ready().await.unwrap();
-    let message = message(method, variant, object);
-    let mut request = Request::new(tokio_stream::once(message));
-    if let Some(token) = token {
-        let value = format!("Bearer {}", token.reveal()).parse().unwrap();
-        request.metadata_mut().insert("authorization", value);
+/// The services that the server says it has.
+pub(super) async fn services(stage: &Stage, caller: &Caller) -> BTreeSet<String> {
+    let mut services = BTreeSet::new();
+    for version in ["v1", "v1alpha"] {
+        let method = format!("grpc.reflection.{version}.ServerReflection/ServerReflectionInfo");
+        let call = Call {
+            method: &method,
+            variant: Variant::Plain,
+            id: "",
+            package: b"",
+        };
+        let answer = call.ask(caller.channel(&stage.server).await, caller).await;
+        let answer = ServerReflectionResponse::decode(answer.unwrap().as_slice()).unwrap();
+        let Some(MessageResponse::ListServicesResponse(list)) = answer.message_response else {
+            panic!("{method} does not list the services: {answer:?}");
+        };
+        services.extend(list.service.into_iter().map(|it| it.name));
     }
-    let path = format!("/{method}").parse().unwrap();
-    let asking = async {
-        let mut answers = grpc.streaming(request, path, Bytes).await?.into_inner();
-        answers.message().await
-    };
-    let answered = tokio::time::timeout(PATIENCE, asking).await;
-    match answered.unwrap_or_else(|_| panic!("{method} gave no answer")) {
-        Ok(answer) => Outcome {
-            code: "OK".to_owned(),
-            reason: String::new(),
-            names: names(method, &answer.unwrap_or_default()),
-            whole: Vec::new(),
-        },
-        Err(status) => refused(&status),
+    services
+}
+
+/// One call.
+#[derive(Clone, Copy)]
+pub(super) struct Call<'a> {
+    pub(super) method: &'a str,
+    pub(super) variant: Variant,
+    /// Of what it names.
+    pub(super) id: &'a str,
+    pub(super) package: &'a [u8],
+}
+
+impl Call<'_> {
+    /// Calls, and waits for the first answer.
+    pub(super) async fn outcome(self, channel: Channel, caller: &Caller) -> Outcome {
+        match self.ask(channel, caller).await {
+            Ok(answer) => Outcome {
+                code: "OK".to_owned(),
+                names: names(self.method, &answer),
+                ..Outcome::default()
+            },
+            Err(status) => refused(&status),
+        }
+    }
+
+    async fn ask(self, channel: Channel, caller: &Caller) -> Result<Vec<u8>, Status> {
+        let messages = messages(self.method, self.variant, self.id, self.package);
+        let mut request = Request::new(tokio_stream::iter(messages));
+        if let Some(value) = caller.authorization() {
+            let value = value.parse().unwrap();
+            request.metadata_mut().insert("authorization", value);
+        }
+        let path = format!("/{}", self.method).parse().unwrap();
+        let asking = async {
+            let mut grpc = Grpc::new(channel);
+            grpc.ready().await.unwrap();
+            let mut answers = grpc.streaming(request, path, Bytes).await?.into_inner();
+            Ok(answers.message().await?.unwrap_or_default())
+        };
+        let answered = tokio::time::timeout(PATIENCE, asking).await;
+        answered.unwrap_or_else(|_| panic!("{} gave no answer", self.method))
     }
 }
 
@@ -138,129 +153,4 @@ fn names(method: &str, answer: &[u8]) -> Vec<String> {
         return list.actors.into_iter().map(|it| it.name).collect();
     }
     Vec::new()
-}
-
-/// The one message of a call, as good as it takes for access to be what decides.
-fn message(method: &str, variant: Variant, object: Object) -> Vec<u8> {
-    let id = object.id();
-    let (session, actor) = (format!("sessions/{id}"), format!("actors/{id}"));
-    let take = format!("takes/{id}");
-    let name = method.rsplit('/').next().unwrap();
-    match name {
-        "PublishMarkers" => v1::PublishMarkersRequest {
-            start: Some(publish_start(session, variant)),
-            ..v1::PublishMarkersRequest::default()
-        }
-        .encode_to_vec(),
-        "Subscribe" => v1::SubscribeRequest {
-            start: Some(subscribe_start(session)),
-            credits: 0,
-        }
-        .encode_to_vec(),
-        "Follow" => subscribe_start(session).encode_to_vec(),
-        "ReadCurves" => v1::ReadCurvesRequest {
-            session,
-            ..v1::ReadCurvesRequest::default()
-        }
-        .encode_to_vec(),
-        "CreateSession" => v1::CreateSessionRequest {
-            session_id: object.new_id().to_owned(),
-            actor: "actors/own-1".to_owned(),
-            kind: v1::CaptureKind::Markers.into(),
-            ..v1::CreateSessionRequest::default()
-        }
-        .encode_to_vec(),
-        "StartTake" => v1::StartTakeRequest {
-            session,
-            ..v1::StartTakeRequest::default()
-        }
-        .encode_to_vec(),
-        "ListTakes" => v1::ListTakesRequest {
-            session,
-            ..v1::ListTakesRequest::default()
-        }
-        .encode_to_vec(),
-        "GetSession" | "RecenterSession" | "EndSession" | "UpdateSession" => {
-            // The name is field 1 of each.
-            v1::GetSessionRequest { name: session }.encode_to_vec()
-        }
-        "GetActor" | "ExportActor" | "DeleteActor" => {
-            v1::GetActorRequest { name: actor }.encode_to_vec()
-        }
-        "StopTake" | "GetTake" | "DeleteTake" | "ExportTake" | "ResolveTake" => {
-            v1::GetTakeRequest { name: take }.encode_to_vec()
-        }
-        "ListSessions" | "ListActors" | "GetServer" | "ImportActor" | "ImproveBasis"
-        | "TrainRegions" | "PublishImages" | "UpdateTake" => Vec::new(),
-        _ => panic!("{method} has no message"),
-    }
-}
-
-pub(super) fn publish_start(session: String, variant: Variant) -> v1::PublishStart {
-    v1::PublishStart {
-        session,
-        publisher: "matrix".to_owned(),
-        takeover: variant == Variant::Takeover,
-        unit: v1::LengthUnit::Millimeter.into(),
-        rate_hz: 60.0,
-        ingest: v1::Ingest::Live.into(),
-        ..v1::PublishStart::default()
-    }
-}
-
-pub(super) fn subscribe_start(session: String) -> v1::SubscribeStart {
-    v1::SubscribeStart {
-        session,
-        delivery: v1::Delivery::EveryFrame.into(),
-        ..v1::SubscribeStart::default()
-    }
-}
-
-/// Messages as the bytes that they are.
-#[derive(Clone, Copy, Debug, Default)]
-struct Bytes;
-
-impl Codec for Bytes {
-    type Encode = Vec<u8>;
-    type Decode = Vec<u8>;
-    type Encoder = Self;
-    type Decoder = Self;
-
-    fn encoder(&mut self) -> Self {
-        Self
-    }
-
-    fn decoder(&mut self) -> Self {
-        Self
-    }
-}
-
-impl Encoder for Bytes {
-    type Item = Vec<u8>;
-    type Error = Status;
-
-    fn encode(&mut self, item: Vec<u8>, buffer: &mut EncodeBuf<'_>) -> Result<(), Status> {
-        bytes::BufMut::put_slice(buffer, &item);
-        Ok(())
-    }
-
-    fn buffer_settings(&self) -> BufferSettings {
-        BufferSettings::default()
-    }
-}
-
-impl Decoder for Bytes {
-    type Item = Vec<u8>;
-    type Error = Status;
-
-    fn decode(&mut self, buffer: &mut DecodeBuf<'_>) -> Result<Option<Vec<u8>>, Status> {
-        let n_bytes = bytes::Buf::remaining(buffer);
-        let mut item = vec![0; n_bytes];
-        bytes::Buf::copy_to_slice(buffer, &mut item);
-        Ok(Some(item))
-    }
-
-    fn buffer_settings(&self) -> BufferSettings {
-        BufferSettings::default()
-    }
 }

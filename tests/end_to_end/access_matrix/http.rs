@@ -2,20 +2,22 @@
 
 use std::time::Duration;
 
-use frontalis_access::Token;
 use futures::{SinkExt as _, StreamExt as _};
-use harness::{TestServer, http_get};
 use http_body_util::{BodyExt as _, Full};
-use hyper::{Method, Request, body::Bytes, client::conn::http1};
+use hyper::{
+    Method, Request, Response,
+    body::{Bytes, Incoming},
+    client::conn::http1,
+};
 use hyper_util::rt::TokioIo;
 use serde_json::Value;
-use tokio::net::TcpStream;
 use tokio_tungstenite::tungstenite::{self, client::IntoClientRequest as _};
 
 use super::{
-    Object, Outcome,
-    grpc::{Variant, publish_start, subscribe_start},
-    rules::{self, Rule},
+    Outcome, Stage,
+    callers::Caller,
+    messages::{PAGE_SIZE, Variant, publish_start, subscribe_start, variants},
+    rules,
 };
 
 /// No answer takes longer.
@@ -28,28 +30,30 @@ pub(super) struct Operation {
     path: String,
     /// The gRPC method behind it; none for a plain page.
     behind: Option<String>,
+    variant: Variant,
 }
 
-/// All of them; those that end or delete come last.
-pub(super) async fn operations(server: &TestServer) -> Vec<Operation> {
-    let document = http_get(server, "/openapi.json").await.json();
+/// All of them.
+pub(super) async fn operations(stage: &Stage) -> Vec<Operation> {
+    let document = document(stage).await;
     let mut operations: Vec<Operation> = Vec::new();
     for (path, item) in document["paths"].as_object().unwrap() {
         for (method, operation) in item.as_object().unwrap() {
-            let Ok(method) = method.to_uppercase().parse::<Method>() else {
-                continue;
-            };
-            if method.as_str() == "PARAMETERS" {
+            if method == "parameters" {
                 continue;
             }
+            let method = method.to_uppercase().parse::<Method>().unwrap();
             let behind = operation["x-grpc-method"].as_str().unwrap_or_default();
             // One path that is two methods is asked as each.
             for one in behind.split(", ") {
-                operations.push(Operation {
-                    method: method.clone(),
-                    path: path.clone(),
-                    behind: (!one.is_empty()).then(|| one.to_owned()),
-                });
+                for variant in variants(one) {
+                    operations.push(Operation {
+                        method: method.clone(),
+                        path: path.clone(),
+                        behind: (!one.is_empty()).then(|| one.to_owned()),
+                        variant: *variant,
+                    });
+                }
             }
         }
     }
@@ -59,11 +63,36 @@ pub(super) async fn operations(server: &TestServer) -> Vec<Operation> {
                 method: Method::GET,
                 path: path.to_owned(),
                 behind: None,
+                variant: Variant::Plain,
             });
         }
     }
-    operations.sort_by_key(|it| it.path.ends_with("/end"));
     operations
+}
+
+async fn document(stage: &Stage) -> Value {
+    let request = Request::get("/openapi.json").body(Full::default()).unwrap();
+    let answer = send(stage, &stage.callers[0], request).await;
+    let body = answer.into_body().collect().await.unwrap();
+    serde_json::from_slice(&body.to_bytes()).unwrap()
+}
+
+/// Sends a request on a connection of its own, which lives as long as the answer.
+async fn send(
+    stage: &Stage,
+    caller: &Caller,
+    mut request: Request<Full<Bytes>>,
+) -> Response<Incoming> {
+    let address = stage.server.address();
+    let stream = caller.connect(address).await;
+    let (mut sender, connection) = http1::handshake(TokioIo::new(stream)).await.unwrap();
+    tokio::spawn(connection);
+    let headers = request.headers_mut();
+    headers.insert("host", address.to_string().parse().unwrap());
+    if let Some(value) = caller.authorization() {
+        headers.insert("authorization", value.parse().unwrap());
+    }
+    sender.send_request(request).await.unwrap()
 }
 
 impl Operation {
@@ -72,79 +101,58 @@ impl Operation {
         format!("{} {} ({behind})", self.method, self.path)
     }
 
-    pub(super) fn rule(&self) -> Rule {
-        match &self.behind {
-            Some(method) => rules::of(method),
-            None => rules::plain(&self.path),
-        }
+    /// The name of its rule: that of the method behind it, or its path.
+    pub(super) fn rule(&self) -> &str {
+        self.behind.as_ref().unwrap_or(&self.path)
     }
 
-    pub(super) async fn call(
-        &self,
-        server: &TestServer,
-        token: Option<&Token>,
-        object: Object,
-    ) -> Outcome {
-        let path = self.path.replace("{id}", object.id());
+    pub(super) fn variant(&self) -> Variant {
+        self.variant
+    }
+
+    /// Asks for what has this id.
+    pub(super) async fn call(&self, stage: &Stage, caller: &Caller, id: &str) -> Outcome {
+        let path = self.path.replace("{id}", id);
         let asking = async {
             if path.ends_with("/stream") {
-                self.converse(server, token, &path).await
+                self.converse(stage, caller, &path).await
             } else {
-                self.ask(server, token, &path, object).await
+                self.ask(stage, caller, &path, id).await
             }
         };
         let answered = tokio::time::timeout(PATIENCE, asking).await;
         answered.unwrap_or_else(|_| panic!("{} gave no answer", self.name()))
     }
 
-    async fn ask(
-        &self,
-        server: &TestServer,
-        token: Option<&Token>,
-        path: &str,
-        object: Object,
-    ) -> Outcome {
-        let stream = TcpStream::connect(server.address()).await.unwrap();
-        let (mut sender, connection) = http1::handshake(TokioIo::new(stream)).await.unwrap();
-        let connection = tokio::spawn(async move { drop(connection.await) });
-        let (kind, body) = self.body(object);
-        let mut request = Request::builder()
-            .method(self.method.clone())
-            .uri(path)
-            .header("host", server.address().to_string());
+    async fn ask(&self, stage: &Stage, caller: &Caller, path: &str, id: &str) -> Outcome {
+        let is_list = self.rule().contains("/List");
+        let uri = if is_list {
+            format!("{path}?pageSize={PAGE_SIZE}")
+        } else {
+            path.to_owned()
+        };
+        let mut request = Request::builder().method(self.method.clone()).uri(uri);
+        let (kind, body) = self.body(stage, id);
         if let Some(kind) = kind {
             request = request.header("content-type", kind);
         }
-        if let Some(token) = token {
-            request = request.header("authorization", format!("Bearer {}", token.reveal()));
-        }
         let request = request.body(Full::new(Bytes::from(body))).unwrap();
-        let answer = sender.send_request(request).await.unwrap();
+        let answer = send(stage, caller, request).await;
         let status = answer.status().as_u16();
-        let is_problem = answer
-            .headers()
-            .get("content-type")
-            .is_some_and(|it| it == "application/problem+json");
-        let is_list =
-            matches!(path, "/api/v1/sessions" | "/api/v1/actors") && self.method == Method::GET;
-        let outcome = if is_problem || is_list {
+        let kind = answer.headers().get("content-type");
+        let is_problem = kind.is_some_and(|it| it == "application/problem+json");
+        if is_problem || is_list {
             let whole = answer.into_body().collect().await.unwrap().to_bytes();
-            outcome(status, &whole)
-        } else {
-            // A stream that stays open has said what it had to.
-            Outcome {
-                code: status.to_string(),
-                reason: String::new(),
-                whole: Vec::new(),
-                names: Vec::new(),
-            }
-        };
-        connection.abort();
-        outcome
+            return outcome(status, &whole);
+        }
+        // A stream that stays open has said what it had to.
+        Outcome {
+            code: status.to_string(),
+            ..Outcome::default()
+        }
     }
 
-    fn body(&self, object: Object) -> (Option<&'static str>, String) {
-        let id = object.new_id();
+    fn body(&self, stage: &Stage, id: &str) -> (Option<&'static str>, Vec<u8>) {
         let name = self.behind.as_deref().unwrap_or_default();
         let json = Some("application/json");
         match name.rsplit('/').next().unwrap() {
@@ -152,42 +160,37 @@ impl Operation {
                 let body = format!(
                     r#"{{"sessionId":"{id}","actor":"actors/own-1","kind":"CAPTURE_KIND_MARKERS"}}"#
                 );
-                (json, body)
+                (json, body.into_bytes())
             }
-            "UpdateSession" | "RecenterSession" | "EndSession" => (json, "{}".to_owned()),
+            "UpdateSession" | "RecenterSession" | "EndSession" => (json, b"{}".to_vec()),
             "PublishMarkers" => {
-                let start = publish_start(String::new(), Variant::Plain);
-                let line = format!(r#"{{"start":{}}}"#, serde_json::to_string(&start).unwrap());
-                (Some("application/x-ndjson"), line + "\n")
+                let start = publish_start(String::new(), self.variant);
+                let start = serde_json::to_string(&start).unwrap();
+                let line = format!("{{\"start\":{start}}}\n");
+                (Some("application/x-ndjson"), line.into_bytes())
             }
-            "ImportActor" => (Some("application/zip"), "PK".to_owned()),
-            _ => (None, String::new()),
+            "ImportActor" => (Some("application/zip"), stage.package.clone()),
+            _ => (None, Vec::new()),
         }
     }
 
     /// The WebSocket: a refusal before the upgrade, or the first message after it.
-    async fn converse(&self, server: &TestServer, token: Option<&Token>, path: &str) -> Outcome {
-        let publishes = self
-            .behind
-            .as_deref()
-            .is_some_and(|it| it.ends_with("/PublishMarkers"));
-        let url = format!("ws://{}{path}", server.address());
-        let mut request = url.into_client_request().unwrap();
-        let headers = request.headers_mut();
-        let (subprotocol, start) = if publishes {
-            let start = publish_start(String::new(), Variant::Plain);
+    async fn converse(&self, stage: &Stage, caller: &Caller, path: &str) -> Outcome {
+        let address = stage.server.address();
+        let mut request = format!("wss://{address}{path}")
+            .into_client_request()
+            .unwrap();
+        let (subprotocol, start) = if self.rule().ends_with("/PublishMarkers") {
+            let start = publish_start(String::new(), self.variant);
             ("frontalis.v1.publish+json", serde_json::to_value(&start))
         } else {
             let start = subscribe_start(String::new());
             ("frontalis.v1.subscribe+json", serde_json::to_value(&start))
         };
-        let mut offered = subprotocol.to_owned();
-        if let Some(token) = token {
-            // As a browser does it.
-            offered = format!("{offered}, frontalis.bearer.{}", token.reveal());
-        }
+        let offered = caller.subprotocols(subprotocol);
+        let headers = request.headers_mut();
         headers.insert("sec-websocket-protocol", offered.parse().unwrap());
-        let stream = TcpStream::connect(server.address()).await.unwrap();
+        let stream = caller.connect(address).await;
         let mut socket = match tokio_tungstenite::client_async(request, stream).await {
             Ok((socket, answer)) => {
                 let spoken = answer.headers()["sec-websocket-protocol"].clone();
@@ -204,16 +207,12 @@ impl Operation {
         socket.send(start.into()).await.unwrap();
         let first = socket.next().await.unwrap().unwrap().into_text().unwrap();
         let message: Value = serde_json::from_str(&first).unwrap();
-        match message.get("error") {
-            Some(problem) => {
-                let status = problem["status"].as_u64().unwrap();
-                outcome(
-                    u16::try_from(status).unwrap(),
-                    problem.to_string().as_bytes(),
-                )
-            }
-            None => outcome(200, first.as_bytes()),
-        }
+        let Some(problem) = message.get("error") else {
+            return outcome(200, first.as_bytes());
+        };
+        let status = problem["status"].as_u64().unwrap();
+        let status = u16::try_from(status).unwrap();
+        outcome(status, problem.to_string().as_bytes())
     }
 }
 

@@ -1,4 +1,5 @@
-//! CONTRACTS S-4 as a reader writes it down, a line a method: operator, publisher, renderer, viewer.
+//! CONTRACTS S-4 as a reader writes it down, a line a method: operator, publisher, renderer, viewer; and what comes of a
+//! call that may be made.
 
 use frontalis_access::Role;
 
@@ -32,21 +33,29 @@ pub(super) enum Target {
     Nothing,
 }
 
+/// What comes of a call that may be made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Then {
+    Succeeds,
+    /// For a reason that has nothing to do with access.
+    Fails(&'static str),
+}
+
 /// One line of the table.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Rule {
     /// Operator, publisher, renderer, viewer.
     pub(super) may: [May; 4],
     pub(super) target: Target,
-    /// Asked without a token.
+    pub(super) then: Then,
+    /// Answered without a proof.
     pub(super) is_open: bool,
 }
 
 /// What a cell must answer.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Expected {
-    /// No refusal of access; the call itself may fail for what is in it.
-    Passes,
+    Passes(Then),
     /// The list holds the object, or does not.
     Listed(bool, Object),
     Unauthenticated,
@@ -57,83 +66,95 @@ pub(super) enum Expected {
 
 use May::{Everywhere as E, Never as N, Own as O};
 use Target::{Actor, List, NewSession, Nothing, Session, SessionName};
+use Then::{Fails, Succeeds};
+
+const NOT_BUILT: Then = Fails("NOT_IMPLEMENTED");
 
 /// S-4, the row in the comment behind each line.
 #[rustfmt::skip]
-const TABLE: &[(&str, [May; 4], Target)] = &[
-    ("CaptureService/PublishMarkers",  [N, O, N, N], Session),    // publish frames
-    ("CaptureService/PublishImages",   [N, E, N, N], Nothing),    // publish frames; not built
-    ("CurveService/Subscribe",         [E, O, O, N], Session),    // subscribe results
-    ("CurveService/Follow",            [E, O, O, N], Session),    // subscribe results
-    ("CurveService/ReadCurves",        [E, O, O, N], Session),    // subscribe results
-    ("SessionService/CreateSession",   [E, O, N, N], NewSession), // create / end session: own prefix
-    ("SessionService/GetSession",      [E, O, O, O], Session),    // state
-    ("SessionService/ListSessions",    [E, O, O, O], List),       // state
-    ("SessionService/UpdateSession",   [E, O, N, N], Session),    // update, recenter session
-    ("SessionService/RecenterSession", [E, O, N, N], Session),    // update, recenter session
-    ("SessionService/EndSession",      [E, O, N, N], Session),    // create / end session
-    ("ActorService/ImportActor",       [E, N, N, N], Nothing),    // import actors
-    ("ActorService/ExportActor",       [E, O, O, N], Actor),      // read actors
-    ("ActorService/GetActor",          [E, O, O, N], Actor),      // read actors
-    ("ActorService/ListActors",        [E, O, O, N], List),       // read actors
-    ("ActorService/DeleteActor",       [E, N, N, N], Actor),      // delete
-    ("ActorService/ImproveBasis",      [E, N, N, N], Nothing),    // improve; not built
-    ("ActorService/TrainRegions",      [E, N, N, N], Nothing),    // train; not built
-    ("TakeService/StartTake",          [E, O, N, N], SessionName),// start takes; not built
-    ("TakeService/StopTake",           [E, E, N, N], Nothing),    // stop takes; not built
-    ("TakeService/GetTake",            [E, E, N, N], Nothing),    // read takes; not built
-    ("TakeService/ListTakes",          [E, O, N, N], SessionName),// read takes; not built
-    ("TakeService/UpdateTake",         [E, E, N, N], Nothing),    // label takes; not built
-    ("TakeService/DeleteTake",         [E, N, N, N], Nothing),    // delete; not built
-    ("TakeService/ExportTake",         [E, E, N, N], Nothing),    // export; not built
-    ("TakeService/ResolveTake",        [E, N, N, N], Nothing),    // re-solve; not built
-    ("ServerService/GetServer",        [E, E, E, E], Nothing),    // every token may ask
+const TABLE: &[(&str, [May; 4], Target, Then)] = &[
+    ("frontalis.v1.CaptureService/PublishMarkers",  [N, O, N, N], Session,     Succeeds),  // publish frames
+    ("frontalis.v1.CaptureService/PublishImages",   [N, E, N, N], Nothing,     NOT_BUILT), // publish frames
+    ("frontalis.v1.CurveService/Subscribe",         [E, O, O, N], Session,     Succeeds),  // subscribe results
+    ("frontalis.v1.CurveService/Follow",            [E, O, O, N], Session,     Succeeds),  // subscribe results
+    ("frontalis.v1.CurveService/ReadCurves",        [E, O, O, N], Session,     Succeeds),  // subscribe results
+    ("frontalis.v1.SessionService/CreateSession",   [E, O, N, N], NewSession,  Succeeds),  // create session: own prefix
+    ("frontalis.v1.SessionService/GetSession",      [E, O, O, O], Session,     Succeeds),  // state
+    ("frontalis.v1.SessionService/ListSessions",    [E, O, O, O], List,        Succeeds),  // state
+    ("frontalis.v1.SessionService/UpdateSession",   [E, O, N, N], Session,     Succeeds),  // update session
+    ("frontalis.v1.SessionService/RecenterSession", [E, O, N, N], Session,     Succeeds),  // recenter session
+    ("frontalis.v1.SessionService/EndSession",      [E, O, N, N], Session,     Succeeds),  // end session
+    ("frontalis.v1.ActorService/ImportActor",       [E, N, N, N], Nothing,     Succeeds),  // import actors
+    ("frontalis.v1.ActorService/ExportActor",       [E, O, O, N], Actor,       Succeeds),  // read actors
+    ("frontalis.v1.ActorService/GetActor",          [E, O, O, N], Actor,       Succeeds),  // read actors
+    ("frontalis.v1.ActorService/ListActors",        [E, O, O, N], List,        Succeeds),  // read actors
+    ("frontalis.v1.ActorService/DeleteActor",       [E, N, N, N], Actor,       Succeeds),  // delete
+    ("frontalis.v1.ActorService/ImproveBasis",      [E, N, N, N], Nothing,     NOT_BUILT), // improve actors
+    ("frontalis.v1.ActorService/TrainRegions",      [E, N, N, N], Nothing,     NOT_BUILT), // train actors
+    ("frontalis.v1.TakeService/StartTake",          [E, O, N, N], SessionName, NOT_BUILT), // start takes
+    ("frontalis.v1.TakeService/StopTake",           [E, E, N, N], Nothing,     NOT_BUILT), // stop takes
+    ("frontalis.v1.TakeService/GetTake",            [E, E, N, N], Nothing,     NOT_BUILT), // read takes
+    ("frontalis.v1.TakeService/ListTakes",          [E, O, N, N], SessionName, NOT_BUILT), // read takes
+    ("frontalis.v1.TakeService/UpdateTake",         [E, E, N, N], Nothing,     NOT_BUILT), // label takes
+    ("frontalis.v1.TakeService/DeleteTake",         [E, N, N, N], Nothing,     NOT_BUILT), // delete
+    ("frontalis.v1.TakeService/ExportTake",         [E, E, N, N], Nothing,     NOT_BUILT), // export
+    ("frontalis.v1.TakeService/ResolveTake",        [E, N, N, N], Nothing,     NOT_BUILT), // re-solve
+    ("frontalis.v1.ServerService/GetServer",        [E, E, E, E], Nothing,     Succeeds),  // every role
+    ("grpc.health.v1.Health/Watch",                 [E, E, E, E], Nothing,     Succeeds),  // every role
+    ("grpc.reflection.v1.ServerReflection/ServerReflectionInfo",      [E, E, E, E], Nothing, Succeeds), // every role
+    ("grpc.reflection.v1alpha.ServerReflection/ServerReflectionInfo", [E, E, E, E], Nothing, Succeeds), // every role
+    ("/metrics",                                    [E, E, E, E], Nothing,     Succeeds),  // every role
 ];
 
-/// Operations over HTTP that are no method of a service.
-#[rustfmt::skip]
-const PLAIN: &[(&str, [May; 4], bool)] = &[
-    ("/",             [E, E, E, E], true),
-    ("/healthz",      [E, E, E, E], true),
-    ("/readyz",       [E, E, E, E], true),
-    ("/openapi.json", [E, E, E, E], true),
-    ("/docs",         [E, E, E, E], true),
-    ("/metrics",      [E, E, E, E], false),
+/// What everybody may ask, and whoever proves nothing too.
+const OPEN: &[&str] = &[
+    "grpc.health.v1.Health/Check",
+    "/",
+    "/healthz",
+    "/readyz",
+    "/openapi.json",
+    "/docs",
+    "/docs/",
+    "/docs/swagger-ui.css",
 ];
 
-/// The line of a method, by `frontalis.v1.Service/Method`.
-pub(super) fn of(method: &str) -> Rule {
-    let short = method.trim_start_matches("frontalis.v1.");
-    let line = TABLE.iter().find(|it| it.0 == short);
-    let (_, may, target) = line.unwrap_or_else(|| panic!("{method} has no rule"));
+/// The line of a method, by `package.Service/Method`, or of an operation over HTTP that is none, by its path.
+pub(super) fn of(name: &str) -> Rule {
+    if OPEN.contains(&name) {
+        return Rule {
+            may: [E; 4],
+            target: Nothing,
+            then: Succeeds,
+            is_open: true,
+        };
+    }
+    let line = TABLE.iter().find(|it| it.0 == name);
+    let (_, may, target, then) = line.unwrap_or_else(|| panic!("{name} has no rule"));
     Rule {
         may: *may,
         target: *target,
+        then: *then,
         is_open: false,
     }
 }
 
-/// The line of a plain operation, by its path.
-pub(super) fn plain(path: &str) -> Rule {
-    let line = PLAIN.iter().find(|it| it.0 == path);
-    let (_, may, is_open) = line.unwrap_or_else(|| panic!("{path} has no rule"));
-    Rule {
-        may: *may,
-        target: Nothing,
-        is_open: *is_open,
-    }
-}
-
-/// The paths of plain operations.
+/// The paths of operations over HTTP that are no method.
 pub(super) fn plain_paths() -> impl Iterator<Item = &'static str> {
-    PLAIN.iter().map(|it| it.0)
+    let paths = TABLE.iter().map(|it| it.0).chain(OPEN.iter().copied());
+    paths.filter(|it| it.starts_with('/'))
 }
 
 impl Rule {
-    pub(super) fn expected(self, caller: Option<Role>, object: Object) -> Expected {
-        let Some(role) = caller else {
+    /// The same with `takeover`, which an operator may.
+    pub(super) fn with_takeover(mut self) -> Self {
+        self.may[0] = May::Everywhere;
+        self
+    }
+
+    pub(super) fn expected(self, role: Option<Role>, object: Object) -> Expected {
+        let Some(role) = role else {
             return if self.is_open {
-                Expected::Passes
+                Expected::Passes(self.then)
             } else {
                 Expected::Unauthenticated
             };
@@ -147,11 +168,14 @@ impl Rule {
         let reaches = may == May::Everywhere || object == Object::Own;
         match self.target {
             _ if may == May::Never => Expected::Role,
-            Nothing => Expected::Passes,
+            Nothing => Expected::Passes(self.then),
             List => Expected::Listed(reaches && object != Object::Missing, object),
-            NewSession | SessionName if reaches => Expected::Passes,
+            NewSession if reaches && object == Object::Foreign => {
+                Expected::Passes(Fails("SESSION_EXISTS"))
+            }
+            NewSession | SessionName if reaches => Expected::Passes(self.then),
             NewSession => Expected::Scope,
-            Session | Actor if reaches && object != Object::Missing => Expected::Passes,
+            Session | Actor if reaches && object != Object::Missing => Expected::Passes(self.then),
             SessionName | Session | Actor => Expected::NotFound,
         }
     }
@@ -161,13 +185,11 @@ impl Expected {
     pub(super) fn is(self, outcome: &Outcome) -> bool {
         let answered = (outcome.code.as_str(), outcome.reason.as_str());
         match self {
-            Self::Passes => !matches!(
-                outcome.reason.as_str(),
-                "UNAUTHENTICATED" | "ROLE" | "SCOPE" | "SESSION" | "ACTOR" | "RATE_LIMIT" | "ROUTE"
-            ),
+            Self::Passes(Then::Succeeds) => outcome.is_success(),
+            Self::Passes(Then::Fails(reason)) => outcome.reason == reason,
             Self::Listed(is_there, object) => {
                 let is_listed = outcome.names.iter().any(|it| it.ends_with(object.id()));
-                outcome.reason.is_empty() && is_listed == is_there
+                outcome.is_success() && is_listed == is_there
             }
             Self::Unauthenticated => {
                 matches!(answered, ("UNAUTHENTICATED" | "401", "UNAUTHENTICATED"))

@@ -4,21 +4,24 @@ mod certificates;
 mod proofs;
 mod stalled;
 mod streams;
+mod timing;
 
 use std::time::Duration;
 
-use frontalis_access::{NewToken, Role, Token};
+use frontalis_access::{NewToken, Role, Scope, Token, UnixTime};
 use frontalis_proto::v1::{
     CreateSessionRequest, GetServerRequest, GetSessionRequest, ReadCurvesRequest,
     curve_service_client::CurveServiceClient, server_service_client::ServerServiceClient,
     session_service_client::SessionServiceClient,
 };
-use harness::{HttpAnswer, TestServer, assert_eventually, assert_refused, http_send, now};
+use harness::{
+    HttpAnswer, Keys, TestIssuer, TestServer, assert_eventually, assert_refused, http_send, now,
+};
 use hyper::Method;
 use tonic::{Code, Request, Status};
 
 use super::{Stage, beside_a_control_session_of};
-use proofs::{Issuer, Proof};
+use proofs::Proof;
 use streams::Open;
 
 /// A server whose failures are not limited: a row asks for many of them in a moment.
@@ -26,13 +29,18 @@ async fn guarded() -> TestServer {
     TestServer::start_guarded(|config| config.limits.auth_failures_per_minute = 60_000).await
 }
 
-async fn get_server(server: &TestServer, authorization: Option<&str>) -> Result<String, Status> {
-    let mut client = ServerServiceClient::new(server.bare_channel().await);
-    let mut request = Request::new(GetServerRequest {});
+fn request<T>(authorization: Option<&str>, message: T) -> Request<T> {
+    let mut request = Request::new(message);
     if let Some(value) = authorization {
         let value = value.parse().unwrap();
         request.metadata_mut().insert("authorization", value);
     }
+    request
+}
+
+async fn get_server(server: &TestServer, authorization: Option<&str>) -> Result<String, Status> {
+    let mut client = ServerServiceClient::new(server.bare_channel().await);
+    let request = request(authorization, GetServerRequest {});
     let answer = client.get_server(request).await?.into_inner();
     Ok(answer.server.unwrap().caller.unwrap().name)
 }
@@ -67,17 +75,17 @@ fn http_refusal(answer: &HttpAnswer) -> (u16, Vec<u8>, Vec<u8>) {
 #[tokio::test(flavor = "multi_thread", worker_threads = 2)]
 async fn i1_whatever_proves_nothing_is_answered_alike_through_every_door() {
     let mut server = guarded().await;
-    let issuer = Issuer::new();
+    let issuer = TestIssuer::new();
     let revoked = server.keys().grant(Role::Operator, "*");
     let id = server.keys().file().tokens().last().unwrap().id.clone();
     server.keys().file().revoke(&id).unwrap();
-    let text = server.keys().file().to_toml() + &issuer.entry();
+    let text = server.keys().file().to_toml() + &issuer.entry(&[Role::Renderer]);
     server.keys().write_text(&text);
     server.reload();
-    let good = issuer.good();
+    let good = proofs::good(&issuer);
     assert_eventually!(get_server(&server, Some(&good)).await.is_ok());
 
-    let mut proofs = issuer.bad_proofs();
+    let mut proofs = proofs::bad(&issuer);
     proofs.push(Proof::header("revoked", bearer(&revoked)));
     let operator = server.operator_token().to_owned();
     proofs.push(Proof {
@@ -107,6 +115,16 @@ async fn i1_whatever_proves_nothing_is_answered_alike_through_every_door() {
         get_server(server, Some(&huge)).await.unwrap_err();
         println!("I1: {} kinds of proof, one answer", proofs.len() + 2);
         get_server(server, Some(&good)).await.unwrap();
+
+        let right = format!("Bearer {operator}");
+        let mut kinds = vec![
+            ("a right token", Some(right.as_str())),
+            ("a right signed token", Some(good.as_str())),
+            ("no token", None),
+        ];
+        let bad = proofs.iter().filter(|it| it.authorization.is_some());
+        kinds.extend(bad.map(|it| (it.what, it.authorization.as_deref())));
+        timing::print_medians(server, &kinds).await;
     })
     .await;
 }
@@ -218,45 +236,58 @@ fn assert_refused_as_missing(refusals: &[(Code, String, Vec<u8>)]) {
     }
 }
 
+/// A publisher's and a renderer's token that are good until `expire_time`, and are known to the server by now.
+async fn streaming(
+    server: &TestServer,
+    keys: &mut Keys,
+    expire_time: Option<UnixTime>,
+) -> [Token; 2] {
+    let tokens = [Role::Publisher, Role::Renderer].map(|role| {
+        let new = NewToken {
+            expire_time,
+            ..NewToken::new("streaming", role, Scope::all())
+        };
+        keys.file().create(new, now()).unwrap()
+    });
+    keys.save();
+    server.reload();
+    let authorization = bearer(&tokens[1]);
+    assert_eventually!(get_server(server, Some(&authorization)).await.is_ok());
+    tokens
+}
+
+/// Every stream ends, and is told why, within 30 s.
+async fn assert_ended(open: Vec<Open>, what: &str, since: UnixTime) {
+    for stream in open {
+        let (kind, code, reason) = stream.end().await;
+        let after_secs = now().secs() - since.secs();
+        println!("I4: {kind} ended {after_secs} s after the token {what}");
+        assert_eq!(
+            (code.as_str(), reason.as_str()),
+            ("UNAUTHENTICATED", "UNAUTHENTICATED"),
+            "{kind}"
+        );
+        assert!((0..30).contains(&after_secs), "{kind}: {after_secs} s");
+    }
+}
+
 #[tokio::test(flavor = "multi_thread", worker_threads = 2)]
 async fn i4_a_stream_ends_when_its_callers_token_is_revoked() {
     let mut server = guarded().await;
-    let keys = server.keys();
-    let publisher = keys.grant(Role::Publisher, "*");
-    let renderer = keys.grant(Role::Renderer, "*");
-    keys.save();
-    let mut keys = keys.clone();
-    server.reload();
-    let authorization = bearer(&renderer);
-    assert_eventually!(get_server(&server, Some(&authorization)).await.is_ok());
-    beside_a_control_session_of("I4", server, async |stage| {
-        let open = Open::every_kind(&stage.server, &publisher, &renderer, super::SUBJECT).await;
-        let ids: Vec<String> = keys
-            .file()
-            .tokens()
-            .iter()
-            .map(|it| it.id.clone())
-            .collect();
-        for id in &ids[2..] {
+    let mut keys = server.keys().clone();
+    beside_a_control_session_of("I4 revoked", server, async |stage| {
+        let [publisher, renderer] = streaming(&stage.server, &mut keys, None).await;
+        let open = Open::every_kind(&stage.server, &publisher, &renderer).await;
+        let tokens = keys.file().tokens().iter();
+        let streaming = tokens.filter(|it| it.name == "streaming");
+        let ids: Vec<String> = streaming.map(|it| it.id.clone()).collect();
+        for id in &ids {
             keys.file().revoke(id).unwrap();
         }
-        let revoked_at = tokio::time::Instant::now();
-        keys.save();
+        let revoked_at = now();
         // Nobody tells the server: it looks by itself.
-        for stream in open {
-            let (kind, code, reason) = stream.end().await;
-            let after = revoked_at.elapsed();
-            println!(
-                "I4: {kind} ended {:.1} s after the token was revoked",
-                after.as_secs_f64()
-            );
-            assert_eq!(
-                (code.as_str(), reason.as_str()),
-                ("UNAUTHENTICATED", "UNAUTHENTICATED"),
-                "{kind}"
-            );
-            assert!(after < Duration::from_secs(30), "{kind}: {after:?}");
-        }
+        keys.save();
+        assert_ended(open, "was revoked", revoked_at).await;
     })
     .await;
 }
@@ -264,36 +295,13 @@ async fn i4_a_stream_ends_when_its_callers_token_is_revoked() {
 #[tokio::test(flavor = "multi_thread", worker_threads = 2)]
 async fn i4_a_stream_ends_when_its_callers_token_expires() {
     let mut server = guarded().await;
-    server.import_reference().await;
-    server
-        .create_session("subject", "actors/reference")
-        .await
-        .unwrap();
-    let keys = server.keys();
-    let expire_time = now().after(Duration::from_secs(6));
-    let mut expiring = |role| {
-        let new = NewToken {
-            expire_time: Some(expire_time),
-            ..NewToken::new("short", role, "*".parse().unwrap())
-        };
-        keys.file().create(new, now()).unwrap()
-    };
-    let (publisher, renderer) = (expiring(Role::Publisher), expiring(Role::Renderer));
-    server.keys().save();
-    server.reload();
-    let authorization = bearer(&renderer);
-    assert_eventually!(get_server(&server, Some(&authorization)).await.is_ok());
-    let open = Open::every_kind(&server, &publisher, &renderer, super::SUBJECT).await;
-    for stream in open {
-        let (kind, code, reason) = stream.end().await;
-        let late_secs = now().secs() - expire_time.secs();
-        println!("I4: {kind} ended {late_secs} s after the token expired");
-        assert_eq!(
-            (code.as_str(), reason.as_str()),
-            ("UNAUTHENTICATED", "UNAUTHENTICATED"),
-            "{kind}"
-        );
-        assert!((0..30).contains(&late_secs), "{kind}: {late_secs} s");
-    }
-    server.stop().await;
+    let mut keys = server.keys().clone();
+    beside_a_control_session_of("I4 expired", server, async |stage| {
+        let expire_time = now().after(Duration::from_secs(10));
+        let tokens = streaming(&stage.server, &mut keys, Some(expire_time)).await;
+        let [publisher, renderer] = tokens;
+        let open = Open::every_kind(&stage.server, &publisher, &renderer).await;
+        assert_ended(open, "expired", expire_time).await;
+    })
+    .await;
 }

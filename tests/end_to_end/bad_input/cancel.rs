@@ -279,7 +279,10 @@ fn messages(stage: &Stage, method: &str) -> Vec<Vec<u8>> {
             ..v1::ReadCurvesRequest::default()
         })],
         "GetSession" => vec![encoded(&v1::GetSessionRequest { name })],
-        "RecenterSession" => vec![encoded(&v1::RecenterSessionRequest { name })],
+        "RecenterSession" => vec![encoded(&v1::RecenterSessionRequest {
+            name,
+            ..v1::RecenterSessionRequest::default()
+        })],
         "UpdateSession" => vec![encoded(&v1::UpdateSessionRequest {
             name,
             ..v1::UpdateSessionRequest::default()

@@ -1,10 +1,16 @@
 //! Rows F1 to F4 and F11: connections that do not begin, do not go on, vanish, do not read, or are too many.
+//!
+//! After how long the default deadlines close a connection is tested beside the listener, on a paused clock; here every
+//! other deadline lies beyond the patience, so that it is the right one that closes.
 
 use std::{net::SocketAddr, time::Duration};
 
 use frontalis_proto::v1::SubscribeRequest;
 use frontalis_server::config::Config;
-use futures::{StreamExt as _, future::join_all};
+use futures::{
+    FutureExt as _, StreamExt as _,
+    future::{join_all, select_all},
+};
 use harness::{
     Cost, Publisher, Subscriber, TestServer, Vanishing, assert_eventually, encoded, every_frame,
     http_get,
@@ -23,24 +29,30 @@ use super::{
     GOOD_FRAMES, SUBJECT, Stage, beside_a_control_session_of, beside_a_control_session_with,
 };
 
-const PATIENCE: Duration = Duration::from_secs(60);
+/// How long anything is waited for.
+pub(super) const PATIENCE: Duration = Duration::from_secs(40);
 
-/// What a busy machine may add to a deadline; far below what these tests wait for.
-const AFTER_A_DEADLINE: Duration = Duration::from_secs(8);
+/// A deadline that does not end within the patience.
+pub(super) const LONG_SECS: u64 = 60;
 
 const MIB: u64 = 1 << 20;
 
-/// The close came from the deadline: not before it, and not from anything that ends later.
-fn assert_closed_by(deadline: Duration, after: Duration, what: &str) {
-    assert!(after >= deadline, "{what}: closed after {after:?}");
-    assert!(
-        after <= deadline + AFTER_A_DEADLINE,
-        "{what}: closed after {after:?}"
-    );
+/// The headers' deadline alone closes.
+fn only_headers(config: &mut Config) {
+    config.transport.header_deadline_secs = 1;
+    config.transport.keepalive_interval_secs = LONG_SECS;
+    config.transport.keepalive_timeout_secs = LONG_SECS;
+}
+
+/// An unanswered ping alone closes.
+fn only_pings(config: &mut Config) {
+    config.transport.header_deadline_secs = LONG_SECS;
+    config.transport.keepalive_interval_secs = 1;
+    config.transport.keepalive_timeout_secs = 1;
 }
 
 /// Says something, then nothing; how long the server waits until it closes.
-async fn closed_after(address: SocketAddr, said: &[u8]) -> Duration {
+pub(super) async fn closed_after(address: SocketAddr, said: &[u8]) -> Duration {
     // The server's clock may begin before the connection is told here.
     let began = Instant::now();
     let mut stream = TcpStream::connect(address).await.unwrap();
@@ -57,8 +69,7 @@ async fn closed_after(address: SocketAddr, said: &[u8]) -> Duration {
 
 #[tokio::test(flavor = "multi_thread", worker_threads = 2)]
 async fn f1_five_hundred_connections_that_do_not_begin_are_closed_in_time() {
-    let server =
-        TestServer::start_program(|config| config.transport.header_deadline_secs = 2).await;
+    let server = TestServer::start_program(only_headers).await;
     beside_a_control_session_of("F1", server, async |stage| {
         let program = stage.server.program();
         let silent: [(&str, &[u8]); 3] = [
@@ -74,9 +85,6 @@ async fn f1_five_hundred_connections_that_do_not_begin_are_closed_in_time() {
                 "G12: 500 connections that say {what}: {cost}, the last closed after {} ms",
                 longest.as_millis()
             );
-            for wait in &waits {
-                assert_closed_by(Duration::from_secs(2), *wait, what);
-            }
             assert!(cost.grown_bytes <= 16 * MIB, "{cost}");
         }
     })
@@ -87,6 +95,8 @@ async fn f1_five_hundred_connections_that_do_not_begin_are_closed_in_time() {
 async fn f1_connections_of_one_peer_above_the_limit_are_closed_at_once() {
     let change = |config: &mut Config| {
         config.limits.connections_per_peer = 100;
+        // What is closed is closed by the limit.
+        config.transport.header_deadline_secs = LONG_SECS;
     };
     beside_a_control_session_with("F1 limits", change, async |stage| {
         let address = stage.server.address();
@@ -95,61 +105,50 @@ async fn f1_connections_of_one_peer_above_the_limit_are_closed_at_once() {
             held.push(TcpStream::connect(address).await.unwrap());
         }
         // The control session has some of the places.
-        let closed = join_all(held.iter_mut().map(async |it| {
-            let read = timeout(Duration::from_secs(1), it.read_u8()).await;
-            u32::from(read.is_ok())
-        }));
-        let n_closed: u32 = closed.await.iter().sum();
-        assert!(
-            (1..=20).contains(&n_closed),
-            "{n_closed} of 100 were closed"
-        );
+        let ends = held.iter_mut().map(|it| Box::pin(it.read_u8()));
+        let first = timeout(PATIENCE, select_all(ends)).await;
+        drop(first.expect("none was closed"));
+        let is_open = |it: &mut TcpStream| it.read_u8().now_or_never().is_none();
+        let n_open = held.iter_mut().map(is_open).filter(|it| *it).count();
+        assert!((80..100).contains(&n_open), "{n_open} of 100 are open");
         drop(held);
-        assert_eventually!(is_held(address).await);
-        let text = http_get(&stage.server, "/metrics").await;
         let refused = "frontalis_connections_refused_total{limit=\"connections_per_peer\"}";
-        assert!(text.text().contains(refused), "{}", text.text());
+        assert_eventually!(metrics(address).await.contains(refused));
     })
     .await;
 }
 
-/// Whether a connection is kept open, or closed at once.
-async fn is_held(address: SocketAddr) -> bool {
+/// The server's figures; nothing when it closes the connection at once.
+async fn metrics(address: SocketAddr) -> String {
     let mut stream = TcpStream::connect(address).await.unwrap();
-    let read = timeout(Duration::from_millis(100), stream.read_u8());
-    read.await.is_err()
+    let ask = b"GET /metrics HTTP/1.1\r\nHost: localhost\r\nConnection: close\r\n\r\n";
+    drop(stream.write_all(ask).await);
+    let mut answer = String::new();
+    drop(stream.read_to_string(&mut answer).await);
+    answer
 }
 
 #[tokio::test(flavor = "multi_thread", worker_threads = 2)]
 async fn f2_connections_that_fall_silent_are_closed() {
-    let change = |config: &mut Config| {
-        config.transport.keepalive_interval_secs = 1;
-        config.transport.keepalive_timeout_secs = 1;
-        config.transport.header_deadline_secs = 1;
-    };
-    beside_a_control_session_with("F2", change, async |stage| {
-        let address = stage.server.address();
+    beside_a_control_session_with("F2", only_pings, async |stage| {
         let settings = frame(kind::SETTINGS, 0, 0, &[]);
         let begun = [PREFACE, &settings].concat();
         let asked = [&begun, get(1, "/healthz").as_slice()].concat();
-        let silent: [(&str, &[u8]); 3] = [
-            ("no answer to a ping", &begun),
-            ("a request, then no answer to a ping", &asked),
-            (
-                "HTTP/1 after its answer",
-                b"GET /healthz HTTP/1.1\r\nHost: localhost\r\n\r\n",
-            ),
-        ];
-        for (what, said) in silent {
-            let after = closed_after(address, said).await;
-            println!(
-                "F2: {what}: closed after {} ms, 1 s allowed for each wait",
-                after.as_millis()
-            );
-            assert_closed_by(Duration::from_secs(1), after, what);
-        }
+        print_closing(stage, "no answer to a ping", &begun).await;
+        print_closing(stage, "a request, then no answer to a ping", &asked).await;
     })
     .await;
+    beside_a_control_session_with("F2 HTTP/1", only_headers, async |stage| {
+        let answered = b"GET /healthz HTTP/1.1\r\nHost: localhost\r\n\r\n";
+        print_closing(stage, "HTTP/1 after its answer", answered).await;
+    })
+    .await;
+}
+
+async fn print_closing(stage: &Stage, what: &str, said: &[u8]) {
+    let after = closed_after(stage.server.address(), said).await;
+    let millis = after.as_millis();
+    println!("F2: {what}: closed after {millis} ms, 1 s allowed for each wait");
 }
 
 #[tokio::test(flavor = "multi_thread", worker_threads = 2)]
@@ -201,9 +200,9 @@ async fn n_subscribers(stage: &Stage, session: &str) -> usize {
     session.status.unwrap().subscribers.len()
 }
 
-/// A subscriber whose connection answers pings, and that never makes room for more than `window` bytes.
+/// A subscriber whose connection answers pings, and that reads nothing, or a byte a second.
 struct Stalled {
-    _answer: h2::RecvStream,
+    reader: tokio::task::JoinHandle<()>,
     /// Open as long as the stream of its requests.
     _requests: h2::SendStream<hyper::body::Bytes>,
     driver: tokio::task::JoinHandle<()>,
@@ -211,15 +210,24 @@ struct Stalled {
 
 impl Drop for Stalled {
     fn drop(&mut self) {
+        self.reader.abort();
         self.driver.abort();
     }
 }
 
+/// How much a subscriber reads.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Reads {
+    NoByte,
+    OneByte,
+    AByteASecond,
+}
+
 impl Stalled {
-    async fn open(address: SocketAddr, window: u32) -> Self {
+    async fn open(address: SocketAddr, reads: Reads) -> Self {
         let stream = TcpStream::connect(address).await.unwrap();
         let (mut requests, connection) = h2::client::Builder::new()
-            .initial_window_size(window)
+            .initial_window_size(u32::from(reads != Reads::NoByte))
             .handshake::<_, hyper::body::Bytes>(stream)
             .await
             .unwrap();
@@ -237,8 +245,20 @@ impl Stalled {
             credits: 0,
         };
         body.send_data(encoded(&start).into(), false).unwrap();
+        let mut answer = answer.await.unwrap().into_body();
+        let reader = async move {
+            if reads == Reads::AByteASecond {
+                let mut ticks = tokio::time::interval(Duration::from_secs(1));
+                while let Some(Ok(bytes)) = answer.data().await {
+                    ticks.tick().await;
+                    drop(answer.flow_control().release_capacity(bytes.len()));
+                }
+            }
+            std::future::pending::<()>().await;
+            drop(answer);
+        };
         Self {
-            _answer: answer.await.unwrap().into_body(),
+            reader: tokio::spawn(reader),
             _requests: body,
             driver,
         }
@@ -252,9 +272,14 @@ async fn f4_readers_that_make_no_room_cost_little_and_hold_up_nobody() {
     let server = TestServer::start_program(|_| {}).await;
     beside_a_control_session_of("F4", server, async |stage| {
         let program = stage.server.program();
-        for window in [0, 1] {
+        let kinds = [
+            ("no byte", Reads::NoByte),
+            ("one byte", Reads::OneByte),
+            ("a byte a second", Reads::AByteASecond),
+        ];
+        for (what, reads) in kinds {
             let stall = async {
-                let open = (0..N_STALLED).map(|_| Stalled::open(program.address(), window));
+                let open = (0..N_STALLED).map(|_| Stalled::open(program.address(), reads));
                 let stalled = join_all(open).await;
                 let received = async || {
                     let session = stage.server.session("sessions/control").await;
@@ -266,7 +291,7 @@ async fn f4_readers_that_make_no_room_cost_little_and_hold_up_nobody() {
             };
             let (stalled, cost) = Cost::of(program, stall).await;
             println!(
-                "G12: {N_STALLED} readers with a window of {window} bytes, {FRAMES} frames: {cost}"
+                "G12: {N_STALLED} readers of every frame that read {what}, {FRAMES} frames: {cost}"
             );
             // What the session keeps of its own samples is a part of it.
             assert!(cost.grown_bytes <= 16 * MIB, "{cost}");

@@ -38,6 +38,17 @@ const CALLS: [(&str, usize); 7] = [
     (IMPORT, (1 << 20) + (4 << 10)),
 ];
 
+/// The forms of a gRPC call that stand for the same.
+const KINDS: [&str; 2] = ["application/grpc", "application/grpc-web+proto"];
+
+/// The status of a call with these bytes as its whole request, in one of these forms.
+async fn status_of(connection: &mut RawConnection, kind: &str, path: &str, bytes: &[u8]) -> Status {
+    let mut call = connection.call(path, &[("content-type", kind)]).await;
+    call.send(bytes).await;
+    call.finish();
+    call.answer().await.status()
+}
+
 /// Field 100, which no message has: a group's start and its end.
 const GROUP: [[u8; 2]; 2] = [[0xa3, 0x06], [0xa4, 0x06]];
 
@@ -47,9 +58,10 @@ async fn e1_a_message_above_the_limit_is_out_of_range_by_its_prefix_alone() {
         let mut connection = RawConnection::open(&stage.server).await;
         for (path, most_bytes) in CALLS {
             let length = u32::try_from(most_bytes + 1).unwrap();
-            for prefix in [prefixed(0, length, b""), prefixed(0, u32::MAX, b"")] {
-                let mut call = connection.call(path, &[]).await;
-                call.send(&prefix).await;
+            let lengths = [length, u32::MAX];
+            for (length, kind) in lengths.iter().flat_map(|it| KINDS.map(|kind| (*it, kind))) {
+                let mut call = connection.call(path, &[("content-type", kind)]).await;
+                call.send(&prefixed(0, length, b"")).await;
                 let refused = call.answer().await.status();
                 assert_refused(&refused, Code::OutOfRange, "MESSAGE_SIZE");
                 assert!(
@@ -93,13 +105,16 @@ async fn e3_bytes_that_are_no_protobuf_end_the_call() {
             ("a wire type that does not exist", &[0xa7, 0x06]),
         ];
         for (path, _) in CALLS {
-            for (what, bytes) in unreadable {
-                let refused = connection.answer(path, &framed(bytes)).await.status();
+            let forms = unreadable
+                .iter()
+                .flat_map(|it| KINDS.map(|kind| (kind, *it)));
+            for (kind, (what, bytes)) in forms {
+                let refused = status_of(&mut connection, kind, path, &framed(bytes)).await;
                 let problem = Problem::of(&refused);
                 assert_eq!(
                     (problem.code, problem.reason.as_str()),
                     (Code::Internal, "PROTOBUF"),
-                    "{path}, {what}: {problem:?}"
+                    "{kind} {path}, {what}: {problem:?}"
                 );
             }
         }
@@ -402,9 +417,15 @@ async fn e9_compressed_messages_are_not_taken() {
         let bomb = [&[0x1f, 0x8b, 8, 0, 0, 0, 0, 0, 0, 3][..], &[0xff; 50]].concat();
         let length = u32::try_from(bomb.len()).unwrap();
         for (path, _) in CALLS {
-            for flag in [1, 2, 0x80, 0xff] {
+            for (flag, kind) in [
+                (1, KINDS[0]),
+                (2, KINDS[0]),
+                (0x80, KINDS[0]),
+                (0xff, KINDS[0]),
+                (1, KINDS[1]),
+            ] {
                 let bytes = prefixed(flag, length, &bomb);
-                let refused = connection.answer(path, &bytes).await.status();
+                let refused = status_of(&mut connection, kind, path, &bytes).await;
                 assert_refused(&refused, Code::Unimplemented, "COMPRESSION");
             }
             for encoding in ["gzip", "deflate", "zstd", "br", "snappy", "nothing", ""] {

@@ -1,5 +1,6 @@
-//! Rows E10 and E11: the wrong protocol for a path, and deadlines that mean nothing.
+//! Rows E3, E10 and E11: text that is no gRPC-web, the wrong protocol for a path, and deadlines that mean nothing.
 
+use base64::{Engine as _, engine::general_purpose::STANDARD};
 use frontalis_proto::v1::GetSessionRequest;
 use harness::{RawConnection, assert_refused, encoded, http_send};
 use hyper::{Method, StatusCode};
@@ -220,6 +221,34 @@ async fn e10_grpc_web_is_refused_in_the_form_that_it_is_read_in() {
             assert_eq!(answer.content_type, answered, "{asked}, {accepted}");
             assert_eq!(answer.headers["grpc-status"], "12");
         }
+    })
+    .await;
+}
+
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn e3_text_of_grpc_web_is_base64() {
+    beside_a_control_session("E3 gRPC-web text", async |stage| {
+        let mut connection = RawConnection::open(&stage.server).await;
+        let headers = [
+            ("content-type", "application/grpc-web-text"),
+            ("accept", "application/grpc-web+proto"),
+        ];
+        let good = STANDARD.encode(request());
+        let (cut, not_padded) = (&good[..good.len() - 5], good.trim_end_matches('='));
+        let stray = good.replacen('A', "!", 1);
+        let with_line_ends = format!("{good}\r\n");
+        for text in [cut, not_padded, &stray, &with_line_ends, "secret"] {
+            let mut call = connection.call(GET, &headers).await;
+            call.send(text.as_bytes()).await;
+            call.finish();
+            let refused = call.answer().await.status();
+            assert_refused(&refused, Code::InvalidArgument, "BASE64");
+        }
+        let mut call = connection.call(GET, &headers).await;
+        call.send(good.as_bytes()).await;
+        call.finish();
+        let answer = call.answer().await.status();
+        assert_eq!(answer.code(), Code::Ok, "{answer:?}");
     })
     .await;
 }

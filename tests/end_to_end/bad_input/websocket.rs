@@ -1,4 +1,4 @@
-//! Row E13: WebSocket frames that a library refuses to send, over a bare connection.
+//! Row E13: WebSocket frames that a library refuses to send, over a bare connection; and rows E3 to E5 where messages come in them.
 //!
 //! The half that takes its time (no pong for 30 s, fragments of nothing) runs beside the conversation itself, on a paused
 //! clock.
@@ -10,6 +10,7 @@ use super::{SUBJECT, beside_a_control_session};
 const JSON: &str = "frontalis.v1.subscribe+json";
 const PROTOBUF: &str = "frontalis.v1.subscribe+proto";
 const PUBLISH: &str = "frontalis.v1.publish+json";
+const PUBLISH_PROTOBUF: &str = "frontalis.v1.publish+proto";
 
 /// Sends `frames` on a new socket of the subject: the close code, and the reason.
 async fn closed_after(server: &TestServer, subprotocol: &str, frames: &[Vec<u8>]) -> (u16, String) {
@@ -127,6 +128,51 @@ async fn e13_a_ping_flood_is_closed_and_leaves_nothing() {
             status.subscribers.is_empty()
         };
         assert_eventually!(nobody().await);
+    })
+    .await;
+}
+
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn e3_bytes_that_are_no_protobuf_are_closed_with_1007() {
+    beside_a_control_session("E3 WebSocket", async |stage| {
+        let unreadable: [&[u8]; 4] = [&[0xff; 11], &[0x0a, 0x80], &[0x0a, 0x05, b'x'], &[0x02, 0]];
+        for subprotocol in [PROTOBUF, PUBLISH_PROTOBUF] {
+            for bytes in unreadable {
+                let frame = SocketFrames::frame(0x82, bytes);
+                let answer = closed_after(&stage.server, subprotocol, &[frame]).await;
+                assert_eq!(
+                    answer,
+                    closed(1007, "PROTOBUF"),
+                    "{subprotocol}: {bytes:x?}"
+                );
+            }
+        }
+    })
+    .await;
+}
+
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn e4_groups_nested_thirty_thousand_deep_are_closed_with_1007() {
+    beside_a_control_session("E4 WebSocket", async |stage| {
+        let groups = SocketFrames::frame(0x82, &[0xa3, 0x06].repeat(30_000));
+        for subprotocol in [PROTOBUF, PUBLISH_PROTOBUF] {
+            let answer =
+                closed_after(&stage.server, subprotocol, std::slice::from_ref(&groups)).await;
+            assert_eq!(answer, closed(1007, "PROTOBUF"), "{subprotocol}");
+        }
+    })
+    .await;
+}
+
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn e5_messages_that_would_grow_when_they_are_decoded_are_refused_before() {
+    beside_a_control_session("E5 WebSocket", async |stage| {
+        let parts = SocketFrames::frame(0x82, &[0x12, 0].repeat(30_000));
+        let answer = closed_after(&stage.server, PUBLISH_PROTOBUF, &[parts]).await;
+        assert_eq!(answer, closed(1008, "MESSAGE_PARTS"));
+        let objects = format!("{{\"frames\":[{}{{}}]}}", "{},".repeat(20_000));
+        let answer = closed_after(&stage.server, PUBLISH, &[text(objects.as_bytes())]).await;
+        assert_eq!(answer, closed(1008, "FRAME_COUNT"));
     })
     .await;
 }

@@ -7,6 +7,7 @@ use harness::{
     EventStream, GrpcWeb, LinePublisher, Publisher, TestPerformance, TestServer, WebSocket,
     assert_eventually, every_frame, latest,
 };
+use tokio_tungstenite::tungstenite;
 
 const SESSION: &str = "sessions/stage";
 const EVENTS: &str = "/api/v1/sessions/stage/events";
@@ -132,7 +133,7 @@ async fn a_drain_ends_every_door_with_its_reason() {
     };
     assert_eq!(
         (&problem["status"], &problem["title"]),
-        (&503.into(), &"draining".into())
+        (&503.into(), &"The server is shutting down".into())
     );
     assert!(events.answer().await.is_none());
     while web.next().await.is_some() {}
@@ -154,6 +155,20 @@ async fn a_drain_ends_every_door_with_its_reason() {
 async fn what_cannot_begin_is_refused_with_its_status() {
     let server = TestServer::with_session("stage").await;
     let performance = TestPerformance::reference();
+    for (query, field) in [
+        ("delivery=all", "delivery"),
+        ("limit=many", "limit"),
+        ("withMarkers=1", "withMarkers"),
+        ("run=1&run=1", "run"),
+        ("maxRateHz=-1", "maxRateHz"),
+        ("maxRateHz=1000001", "maxRateHz"),
+        ("controlSpace=arkit", "controlSpace"),
+        ("subscriber=%0A", "subscriber"),
+    ] {
+        let path = format!("{EVENTS}?{query}");
+        let refused = EventStream::open(&server, &path, "").await.err().unwrap();
+        assert_eq!(refused.json()["field"], field, "{}", refused.text());
+    }
     for (path, status, reason) in [
         ("/api/v1/sessions/nobody/events", 404, "SESSION"),
         ("/api/v1/sessions/NOBODY/events", 400, "NAME"),
@@ -194,16 +209,24 @@ async fn what_cannot_begin_is_refused_with_its_status() {
     };
     let early = refused(r#"{"frames":[]}"#.to_owned()).await;
     assert_eq!(
-        (early.status.as_u16(), &early.json()["title"]),
-        (409, &"protocol order".into())
+        (early.status.as_u16(), &early.json()["type"]),
+        (409, &"urn:frontalis:problem:PROTOCOL_ORDER".into())
     );
     let broken = refused(r#"{"start":"#.to_owned()).await;
     assert_eq!(
-        (broken.status.as_u16(), &broken.json()["title"]),
-        (400, &"json".into())
+        (broken.status.as_u16(), &broken.json()["type"]),
+        (400, &"urn:frontalis:problem:JSON".into())
     );
     let other = first_line(&performance).replace("sessions/stage", "sessions/other");
-    assert_eq!(refused(other).await.json()["title"], "session mismatch");
+    let other = refused(other).await.json();
+    assert_eq!(
+        (&other["type"], &other["field"], &other["line"]),
+        (
+            &"urn:frontalis:problem:SESSION_MISMATCH".into(),
+            &"start.session".into(),
+            &1.into()
+        )
+    );
     let long = format!("{{\"start\":\"{}", " ".repeat(2 << 20));
     assert_eq!(refused(long).await.status, 413);
 
@@ -249,11 +272,57 @@ async fn a_broken_line_ends_the_stream_and_what_was_taken_stays() {
     };
     assert_eq!(accepted.accepted_through, 30);
     assert_eq!(problem["type"], "urn:frontalis:problem:JSON");
+    assert_eq!(
+        (&problem["line"], &problem["field"]),
+        (&3.into(), &"frames[0].positions[0]".into())
+    );
     assert!(
         problem["detail"].as_str().unwrap().contains("\"NaN\""),
         "{problem}"
     );
     assert!(lines.next().await.is_none());
+    server.stop().await;
+}
+
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn a_broken_message_is_told_by_its_number_however_many_follow_it() {
+    let server = TestServer::with_session("stage").await;
+    let performance = TestPerformance::reference();
+    let again: PublishMarkersRequest = serde_json::from_str(&first_line(&performance)).unwrap();
+    for (subprotocol, field) in [
+        ("frontalis.v1.publish+json", Some("frames[0].number")),
+        ("frontalis.v1.publish+proto", None),
+    ] {
+        let mut socket = WebSocket::open(&server, "stage", subprotocol)
+            .await
+            .unwrap();
+        socket.send(&again).await;
+        socket.next::<PublishResponse>().await.unwrap();
+        socket.send(&message(&performance, 1..=3)).await;
+        let reason = if field.is_some() {
+            let broken = r#"{"frames":[{"number":1.5}]}"#;
+            socket.send_raw(tungstenite::Message::text(broken)).await;
+            "JSON"
+        } else {
+            socket.send(&again).await;
+            "PROTOCOL_ORDER"
+        };
+        for number in 4..9 {
+            socket.send(&message(&performance, number..=number)).await;
+        }
+        let problem = loop {
+            if let Err(closed) = socket.next::<PublishResponse>().await {
+                break closed.problem.unwrap();
+            }
+        };
+        assert_eq!(
+            problem["type"],
+            format!("urn:frontalis:problem:{reason}"),
+            "{problem}"
+        );
+        assert_eq!(problem["message"], 3, "{problem}");
+        assert_eq!(problem["field"].as_str(), field, "{problem}");
+    }
     server.stop().await;
 }
 
@@ -321,8 +390,8 @@ async fn every_door_has_its_place_among_the_subscribers() {
     let held = EventStream::open(&server, EVENTS, "").await.unwrap();
     let refused = EventStream::open(&server, EVENTS, "").await.err().unwrap();
     assert_eq!(
-        (refused.status.as_u16(), &refused.json()["title"]),
-        (429, &"subscribers".into())
+        (refused.status.as_u16(), &refused.json()["type"]),
+        (429, &"urn:frontalis:problem:SUBSCRIBERS".into())
     );
     let web = GrpcWeb::follow(&server, &latest(SESSION, 0)).await;
     assert!(web.trailers.contains("grpc-status:8"), "{}", web.trailers);

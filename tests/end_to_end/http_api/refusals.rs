@@ -41,19 +41,19 @@ async fn both_doors_refuse_for_the_same_reason() {
             json!({ "settings": { "neutralFrames": 0 } }),
             400,
             "SOLVER_OPTIONS",
-            Some("neutral_frames"),
+            Some("settings.neutralFrames"),
         ),
         (
             json!({ "settings": { "record": true } }),
             501,
             "NOT_IMPLEMENTED",
-            Some("record"),
+            Some("settings.record"),
         ),
         (
             json!({ "updateMask": "colour" }),
             400,
             "FIELD_MASK",
-            Some("update_mask"),
+            Some("updateMask"),
         ),
         (json!({ "actorRevision": 9 }), 404, "ACTOR", None),
     ];
@@ -142,7 +142,8 @@ async fn a_problem_says_all_that_it_has_to() {
         assert_eq!(answer.status.as_u16(), status, "{method} {path}: {problem}");
         assert_eq!(problem["status"], status);
         assert_eq!(problem["type"], format!("urn:frontalis:problem:{reason}"));
-        assert_eq!(problem["title"], reason.to_lowercase().replace('_', " "));
+        let title = problem["title"].as_str().unwrap();
+        assert!(title.contains(' ') && title != reason, "{title}");
         assert_eq!(problem["instance"], path.split('?').next().unwrap());
         assert!(!problem["detail"].as_str().unwrap().is_empty());
     }

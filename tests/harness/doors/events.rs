@@ -1,5 +1,6 @@
 //! Server-sent events, as the standard of HTML reads them.
 
+use frontalis_access::Token;
 use frontalis_proto::v1::SubscribeResponse;
 use http_body_util::Empty;
 use hyper::{Request, body::Bytes};
@@ -36,11 +37,25 @@ impl EventStream {
         path: &str,
         last_event_id: &str,
     ) -> Result<Self, HttpAnswer> {
+        Self::open_as(server, None, path, last_event_id).await
+    }
+
+    /// The same with a token.
+    ///
+    /// # Errors
+    ///
+    /// The answer, when it is another than 200.
+    pub async fn open_as(
+        server: &TestServer,
+        token: Option<&Token>,
+        path: &str,
+        last_event_id: &str,
+    ) -> Result<Self, HttpAnswer> {
         let mut request = Request::get(path).header("accept", "text/event-stream");
         if !last_event_id.is_empty() {
             request = request.header("last-event-id", last_event_id);
         }
-        let answer = exchange(server, request, Empty::<Bytes>::new()).await;
+        let answer = exchange(server, token, request, Empty::<Bytes>::new()).await;
         if answer.status() != 200 {
             return Err(whole(answer).await);
         }

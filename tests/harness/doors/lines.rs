@@ -1,5 +1,6 @@
 //! A publisher that sends lines of JSON and reads lines of JSON, both on one HTTP/1.1 request.
 
+use frontalis_access::Token;
 use frontalis_proto::v1::{PublishMarkersRequest, PublishResponse};
 use futures::StreamExt as _;
 use http_body_util::StreamBody;
@@ -26,13 +27,27 @@ impl LinePublisher {
     ///
     /// The answer, when it is another than 200.
     pub async fn open(server: &TestServer, id: &str, first: String) -> Result<Self, HttpAnswer> {
+        Self::open_as(server, None, id, first).await
+    }
+
+    /// The same with a token.
+    ///
+    /// # Errors
+    ///
+    /// The answer, when it is another than 200.
+    pub async fn open_as(
+        server: &TestServer,
+        token: Option<&Token>,
+        id: &str,
+        first: String,
+    ) -> Result<Self, HttpAnswer> {
         let (lines, sent) = mpsc::channel(64);
         lines.send(first).await.unwrap();
         let frames = ReceiverStream::new(sent)
             .map(|line| Ok::<_, std::io::Error>(Frame::data(Bytes::from(line + "\n"))));
         let request = Request::post(format!("/api/v1/sessions/{id}/frames"))
             .header("content-type", "application/x-ndjson");
-        let answer = exchange(server, request, StreamBody::new(frames)).await;
+        let answer = exchange(server, token, request, StreamBody::new(frames)).await;
         if answer.status() != 200 {
             return Err(whole(answer).await);
         }

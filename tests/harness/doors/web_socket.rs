@@ -1,5 +1,6 @@
 //! A WebSocket of either direction and either form.
 
+use frontalis_access::Token;
 use futures::{SinkExt as _, StreamExt as _};
 use prost::Message as Protobuf;
 use serde::{Serialize, de::DeserializeOwned};
@@ -36,10 +37,28 @@ impl WebSocket {
     ///
     /// The status of a refused handshake.
     pub async fn open(server: &TestServer, id: &str, subprotocol: &str) -> Result<Self, u16> {
+        Self::open_as(server, None, id, subprotocol).await
+    }
+
+    /// The same with a token, beside the subprotocol as a browser does it.
+    ///
+    /// # Errors
+    ///
+    /// The status of a refused handshake.
+    pub async fn open_as(
+        server: &TestServer,
+        token: Option<&Token>,
+        id: &str,
+        subprotocol: &str,
+    ) -> Result<Self, u16> {
         let url = format!("ws://{}/api/v1/sessions/{id}/stream", server.address());
         let mut request = url.into_client_request().unwrap();
         let headers = request.headers_mut();
-        headers.insert("sec-websocket-protocol", subprotocol.parse().unwrap());
+        let offered = match token {
+            Some(token) => format!("{subprotocol}, frontalis.bearer.{}", token.reveal()),
+            None => subprotocol.to_owned(),
+        };
+        headers.insert("sec-websocket-protocol", offered.parse().unwrap());
         let stream = TcpStream::connect(server.address()).await.unwrap();
         stream.set_nodelay(true).unwrap();
         match client_async(request, stream).await {

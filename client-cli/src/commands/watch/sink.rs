@@ -4,7 +4,7 @@ use std::io::{self, BufWriter, Stdout, Write as _};
 
 use anyhow::bail;
 use frontalis_client::{
-    csv::{CsvRow, CsvWriter},
+    csv::{Columns, CsvRow, CsvWriter},
     curve_client::CurveEvent,
 };
 
@@ -27,17 +27,20 @@ pub enum Sink {
     Csv {
         writer: Option<CsvWriter<BufWriter<Stdout>>>,
         controls: Vec<String>,
+        columns: Columns,
     },
     /// One JSON object an event.
     Json(BufWriter<Stdout>),
 }
 
 impl Sink {
-    pub fn choose(context: &Context, session: &str, csv: bool) -> anyhow::Result<Self> {
-        Ok(if csv {
+    /// `csv` says what a table would hold, if one is wanted.
+    pub fn choose(context: &Context, session: &str, csv: Option<Columns>) -> anyhow::Result<Self> {
+        Ok(if let Some(columns) = csv {
             Self::Csv {
                 writer: None,
                 controls: Vec::new(),
+                columns,
             }
         } else if context.json {
             Self::Json(BufWriter::new(io::stdout()))
@@ -59,7 +62,11 @@ impl Sink {
                 screen.draw(|it| picture.draw(it))?;
             }
             Self::Plain(lines) => lines.take(&event)?,
-            Self::Csv { writer, controls } => return take_csv(writer, controls, &event),
+            Self::Csv {
+                writer,
+                controls,
+                columns,
+            } => return take_csv(writer, controls, *columns, &event),
             Self::Json(out) => writeln!(out, "{}", json::event(event)?)?,
         }
         Ok(())
@@ -92,6 +99,7 @@ impl Sink {
 fn take_csv(
     writer: &mut Option<CsvWriter<BufWriter<Stdout>>>,
     controls: &mut Vec<String>,
+    columns: Columns,
     event: &CurveEvent,
 ) -> anyhow::Result<()> {
     match (event, writer) {
@@ -99,7 +107,8 @@ fn take_csv(
             let names: Vec<_> = header.controls.iter().map(|it| it.name.clone()).collect();
             if writer.is_none() {
                 let out = BufWriter::new(io::stdout());
-                *writer = Some(CsvWriter::new(out, names.iter().map(String::as_str))?);
+                let headings = names.iter().map(String::as_str);
+                *writer = Some(CsvWriter::new(out, headings, columns)?);
                 *controls = names;
             } else if *controls != names {
                 bail!("the session's controls changed; one table cannot hold both");

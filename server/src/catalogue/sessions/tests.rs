@@ -150,7 +150,7 @@ fn an_id_is_free_again_only_when_its_session_ended() {
 }
 
 #[test]
-fn only_old_ended_and_never_used_sessions_are_collected() {
+fn i7_only_old_ended_and_never_used_sessions_are_collected() {
     let catalogue = catalogue();
     for id in ["ended-old", "ended-new", "used", "unused-old"] {
         catalogue.create_session(&session(id), 0).unwrap();

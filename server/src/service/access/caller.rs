@@ -129,8 +129,18 @@ impl Caller {
             Who::Nobody => Err(unauthenticated()),
             Who::Anyone => Ok(()),
             Who::Known(known) if policy::allows(known.principal.role, action) => Ok(()),
-            Who::Known(known) => Err(denied(known.principal.role)),
+            Who::Known(_) => Err(self.denied("the caller's role may not do this")),
         }
+    }
+
+    /// The refusal of its role, in these words.
+    pub fn denied(&self, message: &'static str) -> Status {
+        let refusal = Refusal::new(Code::PermissionDenied, "ROLE", message);
+        match self.principal() {
+            Some(principal) => refusal.with("role", &principal.role),
+            None => refusal,
+        }
+        .into_status()
     }
 
     /// Whether it may do this to this session: the role first, then the scope.
@@ -202,16 +212,6 @@ impl Caller {
 pub fn unauthenticated() -> Status {
     let message = "a valid token is needed";
     refuse(Code::Unauthenticated, "UNAUTHENTICATED", message)
-}
-
-fn denied(role: Role) -> Status {
-    Refusal::new(
-        Code::PermissionDenied,
-        "ROLE",
-        "the caller's role may not do this",
-    )
-    .with("role", &role)
-    .into_status()
 }
 
 fn out_of_scope(message: &str) -> Status {

@@ -6,14 +6,14 @@ use std::{
     sync::{Arc, PoisonError, RwLock},
 };
 
-use frontalis_access::{TokenFile, TokenFileError};
+use frontalis_access::{TokenFile, TokenFileChange, TokenFileError};
 use tokio::sync::watch;
 use tokio_util::sync::CancellationToken;
 
 use super::Access;
 use crate::{
     reload::{Occasion, Reloads},
-    service::audit::Entry,
+    service::audit::{Entry, MAX_FIELD},
 };
 
 /// More is not read; what is read is refused as too large.
@@ -77,17 +77,19 @@ impl TokenSource {
         self.version.subscribe()
     }
 
-    /// Takes the file over if it is another than before; whether it was.
-    fn look(&self) -> Result<bool, TokenSourceError> {
+    /// Takes the file over if it is another than before; what it says otherwise.
+    fn look(&self) -> Result<Option<TokenFileChange>, TokenSourceError> {
         let text = read(&self.path)?;
-        if text == self.newest().text {
-            return Ok(false);
+        let before = self.newest();
+        if text == before.text {
+            return Ok(None);
         }
         let file = Arc::new(parse(&self.path, &text)?);
+        let change = file.change_since(&before.file);
         let read = Arc::new(Read { text, file });
         *self.current.write().unwrap_or_else(PoisonError::into_inner) = read;
         self.version.send_modify(|it| *it = it.wrapping_add(1));
-        Ok(true)
+        Ok(Some(change))
     }
 
     fn newest(&self) -> Arc<Read> {
@@ -130,15 +132,15 @@ pub async fn follow(access: Access, mut reloads: Reloads, end: CancellationToken
         let looking = access.clone();
         let look = move || looking.0.tokens.as_ref().map(TokenSource::look);
         match tokio::task::spawn_blocking(look).await {
-            Ok(None | Some(Ok(false))) => said = None,
-            Ok(Some(Ok(true))) => {
+            Ok(None | Some(Ok(None))) => said = None,
+            Ok(Some(Ok(Some(change)))) => {
                 said = None;
-                access.note_reload(Ok(()));
+                access.note_change(&change);
             }
             Ok(Some(Err(error))) => {
                 let text = format!("{error}: {}", cause(&error));
                 if occasion == Occasion::Asked || said.as_ref() != Some(&text) {
-                    access.note_reload(Err(&text));
+                    access.note_refusal(&text);
                     said = Some(text);
                 }
             }
@@ -151,21 +153,102 @@ fn cause(error: &TokenSourceError) -> String {
     std::error::Error::source(error).map_or_else(String::new, ToString::to_string)
 }
 
+/// Event of the audit log.
+const CHANGE: &str = "token_file_change";
+
 impl Access {
-    fn note_reload(&self, outcome: Result<(), &str>) {
-        self.0.metrics.tokens_reloaded(outcome.is_ok());
-        let result = match outcome {
-            Ok(()) => {
-                tracing::info!("the token file was read again");
-                "taken"
+    fn note_change(&self, change: &TokenFileChange) {
+        self.0.metrics.tokens_reloaded(true);
+        tracing::info!("the token file was read again");
+        for object in objects(change) {
+            let entry = Entry::of_server(CHANGE, &object, "taken");
+            self.0.audit.note(entry);
+        }
+    }
+
+    fn note_refusal(&self, error: &str) {
+        self.0.metrics.tokens_reloaded(false);
+        tracing::error!(error, "the new token file is refused, the old one stays");
+        let entry = Entry::of_server(CHANGE, "", "refused");
+        self.0.audit.note(entry);
+    }
+}
+
+/// A change for the audit log, in as many texts as it takes for every id to be kept; at least one.
+fn objects(change: &TokenFileChange) -> Vec<String> {
+    let kinds = [
+        ("added", &change.added),
+        ("removed", &change.removed),
+        ("revoked", &change.revoked),
+        ("changed", &change.changed),
+    ];
+    let tokens = kinds.into_iter().flat_map(|(kind, ids)| listed(kind, ids));
+    let others = [
+        (change.issuers, "changed issuers"),
+        (change.certificates, "changed rules for certificates"),
+    ];
+    let others = others.into_iter().filter(|it| it.0);
+    let mut objects: Vec<String> = tokens.chain(others.map(|it| it.1.to_owned())).collect();
+    if objects.is_empty() {
+        objects.push("changed comments".to_owned());
+    }
+    objects
+}
+
+/// `kind` and ids, with spaces between them.
+fn listed(kind: &str, ids: &[String]) -> Vec<String> {
+    let mut lines: Vec<String> = Vec::new();
+    for id in ids {
+        match lines.last_mut() {
+            Some(line) if line.len() + 1 + id.len() <= MAX_FIELD => {
+                line.push(' ');
+                line.push_str(id);
             }
-            Err(error) => {
-                tracing::error!(error, "the new token file is refused, the old one stays");
-                "refused"
-            }
+            _ => lines.push(format!("{kind} {id}")),
+        }
+    }
+    lines
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn ids(numbers: std::ops::Range<u32>) -> Vec<String> {
+        numbers.map(|it| format!("t-{it:08x}")).collect()
+    }
+
+    #[test]
+    fn every_id_of_a_change_is_in_a_text_that_is_kept_whole() {
+        let change = TokenFileChange {
+            added: ids(0..100),
+            revoked: ids(100..102),
+            certificates: true,
+            ..TokenFileChange::default()
         };
-        self.0
-            .audit
-            .note(Entry::of_server("token_file_change", result));
+        let objects = objects(&change);
+        let (others, added) = objects
+            .split_last_chunk::<2>()
+            .map(|it| (it.1, it.0))
+            .unwrap();
+        assert_eq!(
+            others,
+            &[
+                "revoked t-00000064 t-00000065",
+                "changed rules for certificates"
+            ]
+        );
+        assert!(added.len() > 1 && added.iter().all(|it| it.len() <= MAX_FIELD));
+        let named: Vec<&str> = added
+            .iter()
+            .flat_map(|it| it.strip_prefix("added ").unwrap().split(' '))
+            .collect();
+        assert_eq!(named, change.added);
+    }
+
+    #[test]
+    fn a_change_of_nothing_that_counts_is_a_text_too() {
+        let objects = objects(&TokenFileChange::default());
+        assert_eq!(objects, ["changed comments"]);
     }
 }

@@ -7,14 +7,11 @@ use std::{
     path::Path,
 };
 
-use frontalis_access::UnixTime;
+use frontalis_access::{AuditLine, ChainEnd, UnixTime};
 use tokio::sync::mpsc;
 use tokio_util::sync::CancellationToken;
 
-use super::{
-    Entry,
-    chain::{Line, TORN, Tail, read},
-};
+use super::Entry;
 use crate::clock::wall_now;
 
 /// Name of the log in the data directory.
@@ -30,7 +27,7 @@ const BATCH: usize = 64;
 pub struct AuditLog {
     /// None: the server keeps everything in memory, and entries go to the log of the process alone.
     file: Option<File>,
-    tail: Tail,
+    end: ChainEnd,
     /// The file ends in a line that was not written whole.
     is_torn: bool,
 }
@@ -40,7 +37,7 @@ impl AuditLog {
     pub fn in_memory() -> Self {
         Self {
             file: None,
-            tail: Tail::default(),
+            end: ChainEnd::default(),
             is_torn: false,
         }
     }
@@ -57,16 +54,16 @@ impl AuditLog {
             .create(true)
             .mode(0o600)
             .open(directory.join(FILE_NAME))?;
-        let end = read_end(&mut file)?;
-        let (tail, is_torn) = joint(&end, &Tail::default());
+        let text = read_end(&mut file)?;
+        let (end, is_torn) = joint(&text, &ChainEnd::default());
         tracing::info!(
-            sequence = tail.sequence,
-            hash = tail.hash,
+            sequence = end.sequence,
+            hash = end.hash,
             "the audit log goes on"
         );
         Ok(Self {
             file: Some(file),
-            tail,
+            end,
             is_torn,
         })
     }
@@ -106,9 +103,9 @@ impl AuditLog {
 
     /// After a failure: what came of the batch may be all, nothing, or half a line.
     fn look_again(&mut self) {
-        let end = self.file.as_mut().map(read_end);
-        match end {
-            Some(Ok(end)) => (self.tail, self.is_torn) = joint(&end, &self.tail),
+        let text = self.file.as_mut().map(read_end);
+        match text {
+            Some(Ok(text)) => (self.end, self.is_torn) = joint(&text, &self.end),
             _ => self.is_torn = true,
         }
     }
@@ -118,29 +115,30 @@ impl AuditLog {
             return Ok(());
         };
         let time = UnixTime::from(wall_now()).to_string();
-        let mut tail = self.tail.clone();
+        let mut end = self.end.clone();
         let mut text = String::new();
         if self.is_torn {
             text.push('\n');
-            text.push_str(&tail.append(line(Entry::of_server(TORN, "go on"), &time)));
+            let torn = Entry::of_server(AuditLine::TORN, "", "go on");
+            text.push_str(&end.append(line(torn, &time)));
         }
         for entry in batch {
-            text.push_str(&tail.append(line(entry, &time)));
+            text.push_str(&end.append(line(entry, &time)));
         }
         file.write_all(text.as_bytes())?;
         file.sync_data()?;
-        self.tail = tail;
+        self.end = end;
         self.is_torn = false;
         Ok(())
     }
 }
 
 /// The newest line that is whole, and whether something that is none comes after it.
-fn joint(end: &str, before: &Tail) -> (Tail, bool) {
-    let newest = end.lines().rev().find_map(read);
-    let is_whole = end.ends_with('\n') && end.lines().next_back().and_then(read).is_some();
-    let tail = newest.map_or_else(|| before.clone(), |it| it.0);
-    (tail, !is_whole && !end.is_empty())
+fn joint(text: &str, before: &ChainEnd) -> (ChainEnd, bool) {
+    let newest = text.lines().rev().find_map(ChainEnd::of_line);
+    let last = text.lines().next_back().and_then(ChainEnd::of_line);
+    let is_whole = text.is_empty() || text.ends_with('\n') && last.is_some();
+    (newest.unwrap_or_else(|| before.clone()), !is_whole)
 }
 
 fn read_end(file: &mut File) -> io::Result<String> {
@@ -152,8 +150,8 @@ fn read_end(file: &mut File) -> io::Result<String> {
     Ok(String::from_utf8_lossy(&bytes).into_owned())
 }
 
-fn line(entry: Entry, time: &str) -> Line {
-    Line {
+fn line(entry: Entry, time: &str) -> AuditLine {
+    AuditLine {
         sequence: 0,
         time: time.to_owned(),
         event: entry.event.to_owned(),
@@ -168,29 +166,34 @@ fn line(entry: Entry, time: &str) -> Line {
 
 #[cfg(test)]
 mod tests {
-    use super::{super::verify, *};
+    use frontalis_access::verify_chain;
+
+    use super::*;
 
     fn note(log: &mut AuditLog, event: &'static str) {
-        log.append(vec![Entry::of_server(event, "ok")]).unwrap();
+        log.append(vec![Entry::of_server(event, "", "ok")]).unwrap();
     }
 
     #[test]
     fn a_log_goes_on_after_a_restart_and_after_a_line_that_was_cut() {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join(FILE_NAME);
-        let text = || std::fs::read_to_string(&path).unwrap();
+        let entries = || {
+            let report = verify_chain(&std::fs::read(&path).unwrap()[..]).unwrap();
+            report.first_broken.map_or(Ok(report.end.sequence), Err)
+        };
         let mut log = AuditLog::open(folder.path()).unwrap();
         note(&mut log, "a");
         note(&mut log, "b");
         drop(log);
         note(&mut AuditLog::open(folder.path()).unwrap(), "c");
-        assert_eq!(verify(&text()), Ok(3));
-        let whole = text();
+        assert_eq!(entries(), Ok(3));
+        let whole = std::fs::read_to_string(&path).unwrap();
         for at in whole.rfind("{\"sequence\":3").unwrap() + 1..whole.len() {
             std::fs::write(&path, &whole[..at]).unwrap();
             note(&mut AuditLog::open(folder.path()).unwrap(), "d");
             // Two whole lines, what says that one was cut, and the new one. A whole line without its end counts as cut.
-            let n_entries = verify(&text()).unwrap_or_else(|error| panic!("cut at {at}: {error}"));
+            let n_entries = entries().unwrap_or_else(|line| panic!("cut at {at}: line {line}"));
             assert!((4..=5).contains(&n_entries), "cut at {at}: {n_entries}");
         }
     }

@@ -84,25 +84,36 @@ impl CaptureGrpc {
             .or_else(|refused| caller.may(Action::TakeOver).map_err(|_| refused))
     }
 
-    async fn open(&self, sent: v1::PublishStart, peer: &Peer) -> Result<Publication, Status> {
+    /// What a caller does that publishes, if it may: who may only take sessions over must do so.
+    pub(in crate::service) fn action(caller: &Caller, takes_over: bool) -> Result<Action, Status> {
+        match (caller.may(Action::Publish), caller.may(Action::TakeOver)) {
+            (_, Ok(())) if takes_over => Ok(Action::TakeOver),
+            (Ok(()), _) => Ok(Action::Publish),
+            (Err(_), Ok(())) => {
+                Err(caller.denied("the caller's role publishes only with takeover"))
+            }
+            (Err(refused), Err(_)) => Err(refused),
+        }
+    }
+
+    async fn open(
+        &self,
+        sent: v1::PublishStart,
+        action: Action,
+        peer: &Peer,
+    ) -> Result<Publication, Status> {
         if sent.image.is_some() {
             return Err(not_implemented());
         }
         let start = wire::start(sent)?;
         let caller = &peer.caller;
-        let outranks = caller.may(Action::TakeOver).is_ok();
-        let action = if start.takeover && outranks {
-            Action::TakeOver
-        } else {
-            Action::Publish
-        };
         caller.may_in(action, &start.session)?;
         let session = in_process(&self.registry, &self.store, &start.session).await?;
         let claim = Claim {
             publisher: start.publisher.clone(),
             principal: caller.key().into(),
             takeover: start.takeover,
-            outranks,
+            outranks: caller.may(Action::TakeOver).is_ok(),
         };
         let claimed = session.check_claim(&claim).map_err(Status::from);
         if start.takeover {
@@ -192,12 +203,16 @@ where
     }
 
     async fn open(&mut self) -> Result<v1::PublishResponse, Status> {
-        CaptureGrpc::admit(&self.peer.caller)?;
-        let request = first_message(&mut self.requests, &self.service.registry).await?;
+        let caller = &self.peer.caller;
+        CaptureGrpc::admit(caller)?;
+        let first = first_message(&mut self.requests, &self.service.registry).await;
+        // The role comes before what is wrong with the message.
+        let action = CaptureGrpc::action(caller, takes_over(&first))?;
+        let request = first?;
         let missing = || protocol_order("the first message must be start");
         let publication = self
             .service
-            .open(request.start.ok_or_else(missing)?, &self.peer)
+            .open(request.start.ok_or_else(missing)?, action, &self.peer)
             .await?;
         let mut flow = Flow::new(publication, self.service.clock);
         flow.take_frames(request.frames)?;
@@ -206,6 +221,16 @@ where
         response.started = Some(started);
         self.phase = Phase::Flowing(Box::new(flow));
         Ok(response)
+    }
+}
+
+/// Whether a first message takes a session over; one that cannot be read does not say so.
+///
+/// That none came says nothing of the caller: it is heard by everyone.
+fn takes_over(first: &Result<v1::PublishMarkersRequest, Status>) -> bool {
+    match first {
+        Ok(request) => request.start.as_ref().is_some_and(|it| it.takeover),
+        Err(status) => matches!(status.code(), Code::Unavailable | Code::DeadlineExceeded),
     }
 }
 

@@ -1,7 +1,9 @@
 //! `CurveService`: curves out.
 //!
 //! A stream pulls from its subscription when its connection has room, so that nothing is queued for a subscriber that
-//! does not read (CONTRACTS D-14, D-19). It has no task of its own, and frees its place when it is dropped.
+//! does not read (CONTRACTS D-14, D-19). It frees its place when it is dropped, and when its reader is blocked.
+
+mod reader;
 
 use std::pin::Pin;
 
@@ -9,6 +11,8 @@ use frontalis_proto::v1::{self, curve_service_server::CurveService};
 use futures::{Stream, StreamExt as _, stream};
 use tonic::{Request, Response, Status, Streaming};
 
+pub(in crate::service) use self::reader::MAX_PAUSE;
+use self::reader::Reader;
 use super::{
     ending,
     opening::{first_message, protocol_order},
@@ -84,7 +88,15 @@ impl CurvesGrpc {
             peer.address_name(),
             peer.door.name(),
             can_return_credits,
-        )?;
+        )
+        // Who can return credits sends the start as a part of a message.
+        .map_err(|error| {
+            if can_return_credits {
+                error.inside("start")
+            } else {
+                error
+            }
+        })?;
         peer.caller.may_in(Action::Subscribe, &request.session)?;
         let session = in_process(&self.registry, &self.store, &request.session).await?;
         let mut subscription = session.hub().subscribe(request.spec)?;
@@ -96,7 +108,7 @@ impl CurvesGrpc {
         ));
         let header = self.header(&session);
         let flow = Flow {
-            subscription,
+            reader: Reader::new(subscription),
             detail: request.detail,
             may_grant: can_return_credits,
         };
@@ -177,7 +189,7 @@ enum Phase {
 }
 
 struct Flow {
-    subscription: Subscription,
+    reader: Reader,
     detail: SampleDetail,
     /// Whether the client's side is open.
     may_grant: bool,
@@ -227,19 +239,25 @@ impl Flow {
     where
         S: Stream<Item = Result<v1::SubscribeRequest, Status>> + Unpin,
     {
-        loop {
+        let blocked = |lost| ending::blocked(&lost);
+        let mut subscription = self.reader.ask().map_err(blocked)?;
+        let delivered = loop {
             tokio::select! {
                 // Returned credits first: they decide what may be sent.
                 biased;
-                grant = grants.next(), if self.may_grant => self.receive(grant)?,
-                delivered = self.subscription.next() => return self.respond(delivered),
+                grant = grants.next(), if self.may_grant => self.receive(grant, &mut subscription)?,
+                delivered = subscription.next() => break delivered,
             }
-        }
+        };
+        let response = self.respond(delivered, &subscription);
+        self.reader.put_back(subscription);
+        response
     }
 
     fn receive(
         &mut self,
         grant: Option<Result<v1::SubscribeRequest, Status>>,
+        subscription: &mut Subscription,
     ) -> Result<(), Status> {
         // A client that closed its side goes on to read what its credits allow.
         let Some(request) = grant else {
@@ -250,17 +268,21 @@ impl Flow {
         if request.start.is_some() {
             return Err(protocol_order("start was sent twice"));
         }
-        self.subscription.grant(request.credits);
+        subscription.grant(request.credits);
         Ok(())
     }
 
-    fn respond(&self, delivered: Delivered) -> Result<v1::SubscribeResponse, Status> {
+    fn respond(
+        &self,
+        delivered: Delivered,
+        subscription: &Subscription,
+    ) -> Result<v1::SubscribeResponse, Status> {
         match delivered {
             Delivered::Update(update) => Ok(wire::update_to_wire(&update, self.detail)),
             Delivered::Lagged(lost) => Err(ending::lagged(&lost)),
             Delivered::Closed(Closing::Draining) => Err(SessionError::Draining.into()),
             Delivered::Closed(Closing::Ended { reason, last_frame }) => {
-                let skipped_samples = self.subscription.skipped_samples();
+                let skipped_samples = subscription.skipped_samples();
                 Ok(wire::end_to_wire(reason, last_frame, skipped_samples))
             }
         }

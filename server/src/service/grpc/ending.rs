@@ -4,11 +4,10 @@ use std::time::Duration;
 
 use tonic::{Code, Status};
 
-use super::status::Refusal;
+use super::{curves::MAX_PAUSE, status::Refusal};
 use crate::{
     hub::{LostRange, SubscribeError},
     session::{PublishEnd, SessionError, alignment_problem},
-    wire::curve::SubscribeRefusal,
 };
 
 /// When a subscriber may find room.
@@ -53,20 +52,18 @@ impl From<SubscribeError> for Status {
     }
 }
 
-impl From<SubscribeRefusal> for Status {
-    fn from(refusal: SubscribeRefusal) -> Self {
-        let message = refusal.to_string();
-        match refusal {
-            SubscribeRefusal::Invalid(error) => error.into(),
-            SubscribeRefusal::NotImplemented { .. } => {
-                Refusal::new(Code::Unimplemented, "NOT_IMPLEMENTED", message).into_status()
-            }
-        }
-    }
-}
-
 /// A subscriber that fell out of the window.
 pub(super) fn lagged(lost: &LostRange) -> Status {
+    lost_range(lost, "are no longer kept")
+}
+
+/// A subscriber that took nothing while samples waited for it.
+pub(super) fn blocked(lost: &LostRange) -> Status {
+    let secs = MAX_PAUSE.as_secs();
+    lost_range(lost, &format!("were not taken within {secs} s"))
+}
+
+fn lost_range(lost: &LostRange, what: &str) -> Status {
     let LostRange {
         first_sequence,
         last_sequence,
@@ -74,7 +71,7 @@ pub(super) fn lagged(lost: &LostRange) -> Status {
         last_frame,
     } = lost;
     let message = format!(
-        "samples {first_sequence} to {last_sequence} (frames {first_frame} to {last_frame}) are no longer kept"
+        "samples {first_sequence} to {last_sequence} (frames {first_frame} to {last_frame}) {what}"
     );
     Refusal::new(Code::DataLoss, "SUBSCRIBER_LAGGED", message)
         .with("first_lost", first_sequence)

@@ -7,6 +7,7 @@ mod begun;
 
 use std::{
     collections::VecDeque,
+    error::Error as _,
     pin::Pin,
     task::{Context, Poll, ready},
     time::Duration,
@@ -90,6 +91,17 @@ fn too_slow(deadline: Duration) -> Status {
     refuse(Code::DeadlineExceeded, "MESSAGE_DEADLINE", message)
 }
 
+/// Whether a body ends because it is no text of gRPC-web: its layer decodes the text before messages are looked at.
+fn is_no_text(error: &axum::Error) -> bool {
+    let status = error.source().and_then(|it| it.downcast_ref::<Status>());
+    status.is_some_and(|it| it.message().starts_with("tonic-web: "))
+}
+
+fn no_text() -> Status {
+    let message = "the text form of gRPC-web is base64, padded at the end and nowhere else";
+    refuse(Code::InvalidArgument, "BASE64", message)
+}
+
 /// A request's body of which only whole messages come out.
 struct WholeMessages {
     body: Body,
@@ -162,7 +174,14 @@ impl WholeMessages {
         let Poll::Ready(frame) = polled else {
             return self.poll_deadline(cx).map(Ok);
         };
-        match frame.transpose()?.map(Frame::into_data) {
+        let frame = match frame.transpose() {
+            Err(error) if is_no_text(&error) => {
+                self.refuse(no_text());
+                return Poll::Ready(Ok(()));
+            }
+            frame => frame?,
+        };
+        match frame.map(Frame::into_data) {
             Some(Ok(bytes)) => {
                 if let Err(refused) = self.take(bytes) {
                     self.refuse(refused);

@@ -2,14 +2,14 @@
 
 use std::time::Duration;
 
-use frontalis_analysis::format::actor_package::PackageError;
+use frontalis_analysis::{analyzer::QuietestError, format::actor_package::PackageError};
 use tonic::{Code, Status};
 
 use super::status::Refusal;
 use crate::{
     catalogue::{ActorLoadError, CatalogueError},
     hub::RangeError,
-    session::SessionError,
+    session::{SessionError, alignment_problem},
     wire::invalid::{FieldError, FieldProblem},
 };
 
@@ -30,7 +30,7 @@ impl From<FieldError> for Status {
             | FieldProblem::PageToken => Code::InvalidArgument,
         };
         Refusal::new(code, error.reason(), error.to_string())
-            .with("field", &error.field())
+            .with("field", &error.path())
             .into_status()
     }
 }
@@ -143,6 +143,7 @@ impl From<SessionError> for Status {
             SessionError::UnknownMarkers { .. } => {
                 Refusal::new(Code::FailedPrecondition, "UNKNOWN_MARKERS", message)
             }
+            SessionError::Quietest(error) => return quietest(&error),
             SessionError::Busy { .. } => {
                 Refusal::new(Code::ResourceExhausted, "SESSION_BUSY", message)
                     .retry_after(RETRY_AFTER)
@@ -156,6 +157,25 @@ impl From<SessionError> for Status {
             }
         }
         .into_status()
+    }
+}
+
+/// The quietest frames cannot be the neutral face.
+fn quietest(error: &QuietestError) -> Status {
+    let message = error.to_string();
+    let refused =
+        |reason, message| Refusal::new(Code::FailedPrecondition, reason, message).into_status();
+    match error {
+        QuietestError::NotAligned => refused("NOT_ALIGNED", message),
+        QuietestError::TooFew { found, needed } => {
+            Refusal::new(Code::FailedPrecondition, "QUIETEST_FRAMES", message)
+                .with("found", found)
+                .with("needed", needed)
+                .into_status()
+        }
+        QuietestError::Alignment(cause) => {
+            refused(alignment_problem(cause), format!("{message}: {cause}"))
+        }
     }
 }
 

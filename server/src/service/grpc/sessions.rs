@@ -14,7 +14,7 @@ use crate::{
     wire::{
         invalid::FieldError,
         page::Page,
-        session::{CreateSession, apply},
+        session::{CreateSession, apply, neutral_source},
     },
 };
 
@@ -119,9 +119,11 @@ impl SessionService for SessionsGrpc {
     ) -> Result<Response<v1::RecenterSessionResponse>, Status> {
         let caller = Caller::of(request.extensions());
         caller.may(Action::ChangeSession)?;
-        let id = id(&request.into_inner().name)?;
+        let request = request.into_inner();
+        let id = id(&request.name)?;
         caller.may_in(Action::ChangeSession, &id)?;
-        let session = Some(self.sessions.recenter(&id).await?);
+        let source = neutral_source(request.source)?;
+        let session = Some(self.sessions.recenter(&id, source).await?);
         Ok(Response::new(v1::RecenterSessionResponse { session }))
     }
 

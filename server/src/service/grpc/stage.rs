@@ -37,11 +37,11 @@ pub(super) const SESSION: &str = "sessions/one";
 /// Neutral frames of the sessions here.
 pub(super) const NEUTRAL_FRAMES: u64 = 4;
 
-pub(super) struct Stage {
+pub(in crate::service) struct Stage {
     pub(super) registry: SessionRegistry,
-    pub(super) session: SessionHandle,
+    pub(in crate::service) session: SessionHandle,
     pub(super) capture: CaptureGrpc,
-    pub(super) curves: CurvesGrpc,
+    pub(in crate::service) curves: CurvesGrpc,
     pub(super) sessions: Sessions,
     pub(super) store: Store,
     pub(super) events: mpsc::Receiver<SessionEvent>,
@@ -52,14 +52,15 @@ pub(super) fn settings() -> SessionSettings {
     SessionSettings {
         marker: MarkerSettings {
             neutral_frames: usize::try_from(NEUTRAL_FRAMES).unwrap(),
-            ..MarkerSettings::default()
+            // Faces jump from frame to frame here, and their curves are known.
+            ..MarkerSettings::plain()
         },
         ..SessionSettings::default()
     }
 }
 
 impl Stage {
-    pub(super) async fn new() -> Self {
+    pub(in crate::service) async fn new() -> Self {
         Self::with(SessionLimits::default(), settings(), None).await
     }
 
@@ -130,12 +131,15 @@ impl Stage {
         }
     }
 
-    pub(super) fn frames(&self, numbers: impl IntoIterator<Item = u64>) -> Vec<v1::MarkerFrame> {
+    pub(in crate::service) fn frames(
+        &self,
+        numbers: impl IntoIterator<Item = u64>,
+    ) -> Vec<v1::MarkerFrame> {
         numbers.into_iter().map(|it| self.frame(it)).collect()
     }
 
     /// A publisher whose stream has begun.
-    pub(super) async fn publisher(&self, id: &str) -> Publisher {
+    pub(in crate::service) async fn publisher(&self, id: &str) -> Publisher {
         let mut publisher = self.start(start(id)).await;
         publisher.started = publisher.response().await.unwrap().started;
         publisher
@@ -247,7 +251,7 @@ pub(super) fn start(publisher: &str) -> v1::PublishStart {
     }
 }
 
-pub(super) fn every_frame() -> v1::SubscribeStart {
+pub(in crate::service) fn every_frame() -> v1::SubscribeStart {
     v1::SubscribeStart {
         session: SESSION.to_owned(),
         delivery: v1::Delivery::EveryFrame.into(),
@@ -271,7 +275,7 @@ pub(super) fn assert_refused(status: &Status, code: Code, reason: &str) {
     assert_eq!(reason_of(status).as_deref(), Some(reason), "{status:?}");
 }
 
-pub(super) struct Publisher {
+pub(in crate::service) struct Publisher {
     requests: Option<mpsc::Sender<Result<v1::PublishMarkersRequest, Status>>>,
     responses: std::pin::Pin<Box<dyn Stream<Item = Result<v1::PublishResponse, Status>> + Send>>,
     pub(super) started: Option<v1::PublishStarted>,
@@ -317,7 +321,7 @@ impl Publisher {
     }
 
     /// Sends frames, and reads responses until the last is taken.
-    pub(super) async fn publish(&mut self, frames: Vec<v1::MarkerFrame>) {
+    pub(in crate::service) async fn publish(&mut self, frames: Vec<v1::MarkerFrame>) {
         let last = frames.last().map_or(0, |it| it.number);
         for message in frames.chunks(200) {
             self.send(message.to_vec()).await;
@@ -457,14 +461,14 @@ pub(super) fn in_order(response: &v1::SubscribeResponse) -> Vec<Seen> {
 }
 
 /// A call by whoever reaches the port.
-pub(super) fn asked<T>(message: T) -> Request<T> {
+pub(in crate::service) fn asked<T>(message: T) -> Request<T> {
     let mut request = Request::new(message);
     request.extensions_mut().insert(Caller::anyone());
     request
 }
 
 /// A renderer on this machine.
-fn peer() -> Peer {
+pub(in crate::service) fn peer() -> Peer {
     Peer {
         address: Some(([127, 0, 0, 1], 9).into()),
         caller: Caller::anyone(),

@@ -20,7 +20,7 @@ pub(super) use upload::{__path_import, import};
 
 /// How much is erased.
 #[derive(Deserialize, IntoParams)]
-#[serde(deny_unknown_fields, rename_all = "camelCase")]
+#[serde(rename_all = "camelCase")]
 #[into_params(parameter_in = Query)]
 pub(super) struct DeleteQuery {
     /// Erase everything of this person.

@@ -4,23 +4,22 @@
 //! 1 MiB and 128 levels deep, without unknown or repeated fields (BAD_INPUT D12). What a client sent is not repeated.
 
 mod body;
-mod json;
 
 use std::time::Duration;
 
 use axum::{
     Json,
-    extract::{FromRequestParts, Query, RawPathParams},
-    http::{Extensions, StatusCode, request::Parts},
+    extract::{FromRequestParts, RawPathParams},
+    http::{Extensions, request::Parts},
 };
 use serde::{Deserialize, de::DeserializeOwned};
 use tonic::metadata::MetadataMap;
 
-use super::problem::Problem;
+use super::{problem::Problem, query};
 use crate::service::peer::Door;
 
 pub use body::LargeBodies;
-pub(super) use body::{Message, PathFields, check_encoding, media_type};
+pub(super) use body::{BodyMessage, Message, check_encoding, media_type};
 
 /// A call must be answered within this time, except for uploads and streams.
 pub(super) const DEADLINE: Duration = Duration::from_secs(10);
@@ -38,7 +37,6 @@ pub(super) struct Call<Q = Nothing> {
 
 /// The query of a path that has none.
 #[derive(Deserialize)]
-#[serde(deny_unknown_fields)]
 pub(super) struct Nothing {}
 
 impl<Q> Call<Q> {
@@ -71,11 +69,7 @@ where
     type Rejection = Problem;
 
     async fn from_request_parts(parts: &mut Parts, state: &S) -> Result<Self, Problem> {
-        let Query(query) = Query::try_from_uri(&parts.uri).map_err(|error| {
-            // The parser's text holds what the client sent.
-            tracing::debug!(%error, "a query could not be read");
-            unreadable_query()
-        })?;
+        let query = query::read(parts.uri.query().unwrap_or_default())?;
         // Bytes that are no UTF-8 are no id either; an empty one is refused as what it is.
         let path = RawPathParams::from_request_parts(parts, state).await.ok();
         let id = path.and_then(|path| {
@@ -91,9 +85,4 @@ where
             query,
         })
     }
-}
-
-fn unreadable_query() -> Problem {
-    let detail = "a parameter of the query is unknown, repeated, or has a value of another kind";
-    Problem::new(StatusCode::BAD_REQUEST, "QUERY", detail)
 }

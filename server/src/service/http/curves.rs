@@ -8,13 +8,13 @@ use utoipa::IntoParams;
 use super::{
     Doors,
     call::{Answer, Call},
-    openapi::{self, ObjectRefusals, RangeRefusals, Refusals, StateRefusals},
+    openapi::{ObjectRefusals, RangeRefusals, Refusals, StateRefusals},
     query::SessionPath,
 };
 
 /// Which samples.
 #[derive(Deserialize, IntoParams)]
-#[serde(deny_unknown_fields, rename_all = "camelCase")]
+#[serde(rename_all = "camelCase")]
 #[into_params(parameter_in = Query)]
 pub(super) struct CurvesQuery {
     /// The run that `after` counts in; 0: the current one.
@@ -28,9 +28,9 @@ pub(super) struct CurvesQuery {
     #[serde(default)]
     #[param(required = false, maximum = 1000)]
     limit: u32,
-    /// Fill `standardErrors`; this version cannot.
+    /// Fill `standardErrors`.
     #[serde(default)]
-    #[param(required = false, schema_with = openapi::not_yet)]
+    #[param(required = false)]
     with_uncertainty: bool,
     /// Fill `observedCm`, `reproducedCm` and `observedMarkers`.
     #[serde(default)]

@@ -79,13 +79,11 @@ pub(super) async fn follow(
             return Ok(StatusCode::NO_CONTENT.into_response());
         }
     }
+    let responses = stream::iter(first).chain(responses).boxed();
     let events = Events {
-        responses: stream::iter(first).chain(responses).boxed(),
-        instance: uri.path().to_owned(),
         position: resumed.unwrap_or_default(),
         n_left: call.query.limit.unwrap_or(u64::MAX),
-        is_first: true,
-        n_bytes: 256,
+        ..Events::new(responses, uri.path())
     };
     Ok(answer(events.stream()))
 }
@@ -138,6 +136,18 @@ struct Events {
 }
 
 impl Events {
+    /// All of them, to a client that has none; `instance` is the path, for problems.
+    fn new(responses: Responses, instance: &str) -> Self {
+        Self {
+            responses,
+            instance: instance.to_owned(),
+            position: Position::default(),
+            n_left: u64::MAX,
+            is_first: true,
+            n_bytes: 256,
+        }
+    }
+
     fn stream(self) -> impl Stream<Item = Result<Bytes, Status>> + Send {
         stream::unfold(self, |mut events| async {
             let event = events.next().await?;
@@ -194,3 +204,6 @@ impl Events {
         write_json(&response, text)
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -6,7 +6,7 @@
 mod lines;
 
 use axum::{
-    body::Body,
+    body::{Body, BodyDataStream},
     extract::{Request, State},
     http::{HeaderMap, HeaderValue, StatusCode, header},
     response::Response,
@@ -16,16 +16,16 @@ use frontalis_proto::v1;
 use futures::{Stream, StreamExt as _, future, stream};
 use tonic::Status;
 
-use self::lines::Lines;
+use self::lines::{Line, Lines};
 use super::{
     Doors,
     call::{Call, check_encoding, media_type},
-    message::{Incoming as _, from_json, write_json},
+    message::{Incoming as _, Taken, from_json, write_json},
     openapi::{BodyRefusals, ObjectRefusals, Refusals, StateRefusals},
     problem::Problem,
     query::SessionPath,
 };
-use crate::service::peer::Peer;
+use crate::service::{access::Action, grpc::capture::CaptureGrpc, peer::Peer};
 
 const NDJSON: &str = "application/x-ndjson";
 
@@ -65,24 +65,35 @@ pub(super) async fn publish(
     call: Call,
     request: Request,
 ) -> Result<Response, Problem> {
-    check_encoding(request.headers())?;
-    check_content_type(request.headers())?;
-    let instance = request.uri().path().to_owned();
     let peer = Peer::of(call.extensions());
+    CaptureGrpc::admit(&peer.caller)?;
+    if let Err(problem) = check_form(request.headers()) {
+        // What cannot be read cannot say that it takes over, which is all that some callers may.
+        peer.caller.may(Action::Publish)?;
+        return Err(problem);
+    }
+    let instance = request.uri().path().to_owned();
     let limit_bytes = doors.services.max_message_bytes;
-    let requests = requests(request.into_body(), call.name("sessions"), limit_bytes);
+    let lines = Lines::new(request.into_body().into_data_stream(), limit_bytes);
+    let taken = Taken::none("line");
+    let requests = requests(lines, call.name("sessions"), taken.clone());
     let mut responses = doors.services.capture.publish(requests, peer);
     let first = match responses.next().await {
-        Some(first) => first?,
+        Some(first) => first.map_err(|status| taken.problem(status))?,
         None => return Err(Status::internal("the stream has no answer").into()),
     };
     let answers = stream::once(future::ready(Ok(first))).chain(responses);
-    let lines = answers.map(move |it| Ok::<_, Status>(line(it, &instance)));
+    let lines = answers.map(move |it| Ok::<_, Status>(line(it, &taken, &instance)));
     let mut response = Response::new(Body::from_stream(lines));
     let headers = response.headers_mut();
     headers.insert(header::CONTENT_TYPE, HeaderValue::from_static(NDJSON));
     headers.insert("x-accel-buffering", HeaderValue::from_static("no"));
     Ok(response)
+}
+
+fn check_form(headers: &HeaderMap) -> Result<(), Problem> {
+    check_encoding(headers)?;
+    check_content_type(headers)
 }
 
 /// A form of another site can send no such type, so that it must ask first.
@@ -96,23 +107,24 @@ fn check_content_type(headers: &HeaderMap) -> Result<(), Problem> {
 }
 
 fn requests(
-    body: Body,
+    lines: Lines<BodyDataStream>,
     session: String,
-    limit_bytes: usize,
+    taken: Taken,
 ) -> impl Stream<Item = Result<v1::PublishMarkersRequest, Status>> + Send + Unpin + 'static {
-    Lines::new(body.into_data_stream(), limit_bytes).map(move |line| {
-        let mut request: v1::PublishMarkersRequest = from_json(&line?)?;
+    lines.map(move |Line { number, text }| {
+        taken.take(number);
+        let mut request: v1::PublishMarkersRequest = from_json(&text?, number)?;
         request.place(&session)?;
         Ok(request)
     })
 }
 
 /// One answer; a failure is the last.
-fn line(answer: Result<v1::PublishResponse, Status>, instance: &str) -> Bytes {
+fn line(answer: Result<v1::PublishResponse, Status>, taken: &Taken, instance: &str) -> Bytes {
     let mut text = Vec::with_capacity(128);
     let written = answer.and_then(|it| write_json(&it, &mut text));
     if let Err(status) = written {
-        text = Problem::from(status).in_stream(instance).into_bytes();
+        text = taken.problem(status).in_stream(instance).into_bytes();
     }
     text.push(b'\n');
     text.into()

@@ -2,15 +2,23 @@
 //!
 //! What cannot be read is refused by the place of the error, never with the client's own text (BAD_INPUT D12, E3).
 
+use std::sync::{
+    Arc,
+    atomic::{AtomicU64, Ordering},
+};
+
 use bytes::Bytes;
 use frontalis_proto::v1;
-use prost::Message;
-use serde::{Serialize, de::DeserializeOwned};
-use serde_json::error::Category;
+use prost::Name;
+use serde::Serialize;
 use tonic::{Code, Status};
 
+use super::{
+    json::{self, Rules},
+    problem::Problem,
+};
 use crate::{
-    service::grpc::status::{Refusal, refuse},
+    service::grpc::status::{Refusal, reason_of, refuse},
     wire::{capture::MAX_FRAMES_PER_MESSAGE, invalid::FieldError, parts::PartCount},
 };
 
@@ -20,7 +28,7 @@ const OBJECTS_AROUND_FRAMES: usize = 4;
 const OBJECTS_OF_A_FRAME: usize = 2;
 
 /// A message of a client, from either form.
-pub(super) trait Incoming: Message + DeserializeOwned + Default + Send + 'static {
+pub(super) trait Incoming: Name + Default + Send + 'static {
     /// Most JSON objects in one: a short text must not become a large list (BAD_INPUT E5).
     const MAX_OBJECTS: usize;
 
@@ -77,23 +85,17 @@ fn place(named: &mut String, session: &str) -> Result<(), Status> {
     Err(FieldError::unusable("start.session", "SESSION_MISMATCH", detail).into())
 }
 
-/// Reads a message.
+/// Reads a message from a text that begins on this line of its stream.
 ///
 /// # Errors
 ///
-/// `INVALID_ARGUMENT JSON` or `FRAME_COUNT`, with the column where it fails.
-pub(super) fn from_json<M: Incoming>(text: &[u8]) -> Result<M, Status> {
-    let n_objects = n_objects(text);
-    if n_objects > M::MAX_OBJECTS {
-        let message = format!(
-            "{n_objects} objects in a message, at most {} are taken",
-            M::MAX_OBJECTS
-        );
-        return Err(Refusal::new(Code::InvalidArgument, "FRAME_COUNT", message)
-            .with("value", &M::MAX_OBJECTS)
-            .into_status());
-    }
-    serde_json::from_slice(text).map_err(|error| unreadable(text, &error))
+/// `INVALID_ARGUMENT JSON`, `ENUM` or `FRAME_COUNT`, with field, line and column.
+pub(super) fn from_json<M: Incoming>(text: &[u8], line: u64) -> Result<M, Status> {
+    let rules = Rules {
+        in_path: &[],
+        max_objects: M::MAX_OBJECTS,
+    };
+    json::read(text, rules).map_err(|fault| fault.on_line(line).into())
 }
 
 /// Reads a message.
@@ -111,47 +113,54 @@ pub(super) fn from_protobuf<M: Incoming>(bytes: Bytes) -> Result<M, Status> {
     })
 }
 
-/// Objects that begin in a text, strings left out.
-fn n_objects(text: &[u8]) -> usize {
-    let (mut n, mut in_string, mut escaped) = (0, false, false);
-    for byte in text {
-        if escaped {
-            escaped = false;
-        } else if in_string {
-            escaped = *byte == b'\\';
-            in_string = *byte != b'"';
-        } else {
-            in_string = *byte == b'"';
-            n += usize::from(*byte == b'{');
-        }
-    }
-    n
+/// Which message of a stream was taken last, so that a refusal can say of which it is; cheap to clone.
+#[derive(Clone, Debug)]
+pub(super) struct Taken {
+    unit: &'static str,
+    number: Arc<AtomicU64>,
 }
 
-/// The parser's own text may repeat the client's; its place does not.
-fn unreadable(text: &[u8], error: &serde_json::Error) -> Status {
-    let column = error.column();
-    let read = text.get(..column).unwrap_or(text);
-    // The parser stands behind what follows the value.
-    let read = read
-        .strip_suffix(b",")
-        .or(read.strip_suffix(b"]"))
-        .unwrap_or(read);
-    let message = match error.classify() {
-        Category::Data if read.trim_ascii_end().ends_with(b"null") => {
-            format!(
-                "null at column {column}: a coordinate that was not seen is \"NaN\", three for a marker"
-            )
+impl Taken {
+    /// None was taken yet. A problem names `unit`: `line` or `message`.
+    pub fn none(unit: &'static str) -> Self {
+        Self {
+            unit,
+            number: Arc::default(),
         }
-        Category::Data => format!(
-            "at column {column}: a field that is unknown or stands twice, or a value that does not fit its field"
+    }
+
+    /// The message of this number, from 1, was taken.
+    pub fn take(&self, number: u64) {
+        self.number.store(number, Ordering::Relaxed);
+    }
+
+    /// The next message was taken.
+    pub fn take_next(&self) {
+        self.number.fetch_add(1, Ordering::Relaxed);
+    }
+
+    /// A refusal as the problem that it is, with the number when it is one of the message.
+    pub fn problem(&self, status: Status) -> Problem {
+        let number = self.number.load(Ordering::Relaxed);
+        let says_it = number > 0 && is_of_a_message(&status);
+        let problem = Problem::from(status);
+        if says_it {
+            problem.of_message(self.unit, number)
+        } else {
+            problem
+        }
+    }
+}
+
+/// Whether a refusal is one of the message that was taken last, and not of what happened meanwhile.
+fn is_of_a_message(status: &Status) -> bool {
+    match status.code() {
+        Code::InvalidArgument | Code::OutOfRange | Code::Unimplemented => true,
+        _ => matches!(
+            reason_of(status).as_deref(),
+            Some("PROTOCOL_ORDER" | "MESSAGE_DEADLINE")
         ),
-        Category::Eof => format!("the JSON ends at column {column} in the middle of the message"),
-        Category::Syntax | Category::Io => format!("not JSON, from column {column} on"),
-    };
-    Refusal::new(Code::InvalidArgument, "JSON", message)
-        .with("column", &column)
-        .into_status()
+    }
 }
 
 /// Writes a message at the end of `text`.

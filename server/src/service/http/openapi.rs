@@ -23,7 +23,7 @@ use utoipa::openapi::OpenApi;
 
 use messages::Messages;
 
-pub(super) use parameters::{display_name, length_unit, not_yet};
+pub(super) use parameters::{display_name, length_unit};
 pub(super) use refusals::{BodyRefusals, ObjectRefusals, RangeRefusals, Refusals, StateRefusals};
 
 /// How a schema of this document is named.
@@ -205,9 +205,10 @@ Facial motion capture in, muscle curves out.
 
 Every operation is a method of the gRPC service that `x-grpc-method` names, with the same checks, rights and reasons. \
 Bodies are the protobuf JSON mapping: fields in camel case (the names of the `.proto` files are read too), enums by \
-name, numbers of 64 bits as text, fields with their default left out. Unknown and repeated fields are refused.
+name, numbers of 64 bits as text, fields with their default left out or null. Unknown and repeated fields are refused.
 
-A refusal is `application/problem+json`; the end of its `type` is the reason, the same as over gRPC.";
+A refusal is `application/problem+json`; the end of its `type` is the reason, the same as over gRPC, and `field` is the \
+path of what cannot be used.";
 
 #[cfg(test)]
 mod tests;

@@ -1,6 +1,9 @@
 //! Where an error becomes an HTTP status: `application/problem+json` (RFC 9457).
 //!
-//! Both doors refuse alike: a problem is made from the gRPC status that the same call would get.
+//! Both doors refuse alike: a problem is made from the gRPC status that the same call would get. Names of fields and
+//! figures are those of the JSON mapping.
+
+mod title;
 
 use std::time::Duration;
 
@@ -11,9 +14,11 @@ use axum::{
     middleware::Next,
     response::{IntoResponse, Response},
 };
+use frontalis_proto::json_name;
 use serde_json::{Map, Value, json};
 use tonic::{Code, Status};
 
+use self::title::title;
 use crate::service::grpc::status::{metadata_of, reason_of, retry_after_of};
 
 /// Longest `instance`, in characters.
@@ -57,6 +62,16 @@ impl Problem {
         self
     }
 
+    /// Says by which message of a stream it came: its number from 1, counted in lines or messages.
+    #[must_use]
+    pub fn of_message(mut self, unit: &'static str, number: u64) -> Self {
+        if self.figures.iter().all(|(key, _)| key != unit) {
+            self.detail = format!("{unit} {number}: {}", self.detail);
+            self.figures.push((unit.to_owned(), number.to_string()));
+        }
+        self
+    }
+
     /// The document; `instance` is the path of the request.
     pub fn document(&self, instance: &str) -> Value {
         let mut body = self.body();
@@ -92,12 +107,24 @@ impl Problem {
 impl From<Status> for Problem {
     fn from(status: Status) -> Self {
         let reason = reason_of(&status).unwrap_or_else(|| "INTERNAL".to_owned());
+        let mut figures = metadata_of(&status);
+        let mut detail = status.message().to_owned();
+        for (key, value) in &mut figures {
+            if key == "field" {
+                let name = json_name(value);
+                if let Some(rest) = detail.strip_prefix(value.as_str()) {
+                    detail = format!("{name}{rest}");
+                }
+                *value = name;
+            }
+            *key = json_name(key);
+        }
         Self {
             status: http_status(status.code(), &reason),
             retry_after: retry_after_of(&status),
             reason,
-            detail: status.message().to_owned(),
-            figures: metadata_of(&status),
+            detail,
+            figures,
         }
     }
 }
@@ -132,11 +159,6 @@ pub async fn with_instance(request: Request, next: Next) -> Response {
     response
 }
 
-/// `NEW_RUN` as a person reads it: `new run`.
-fn title(reason: &str) -> String {
-    reason.to_lowercase().replace('_', " ")
-}
-
 /// The mapping of BAD_INPUT, "Status mapping".
 fn http_status(code: Code, reason: &str) -> StatusCode {
     if TOO_LARGE.contains(&reason) {
@@ -163,7 +185,10 @@ fn http_status(code: Code, reason: &str) -> StatusCode {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::hub::RangeError;
+    use crate::{
+        hub::RangeError,
+        wire::invalid::{FieldError, FieldProblem},
+    };
 
     #[test]
     fn a_problem_says_what_the_grpc_status_says() {
@@ -175,7 +200,7 @@ mod tests {
         assert_eq!(problem.status, StatusCode::RANGE_NOT_SATISFIABLE);
         let body = problem.body();
         assert_eq!(body["type"], "urn:frontalis:problem:NEW_RUN");
-        assert_eq!(body["title"], "new run");
+        assert_eq!(body["title"], "The session has started over");
         assert_eq!(body["status"], 416);
         assert_eq!(body["run"], 3);
     }
@@ -186,6 +211,32 @@ mod tests {
         let answer = Problem::from(limit).into_response();
         assert_eq!(answer.status(), StatusCode::TOO_MANY_REQUESTS);
         assert_eq!(answer.headers()[header::RETRY_AFTER], "1");
+    }
+
+    #[test]
+    fn names_are_those_of_the_json_mapping() {
+        let refused = FieldError::new("neutral_frames", FieldProblem::Missing).inside("settings");
+        let body = Problem::from(Status::from(refused)).body();
+        assert_eq!(body["field"], "settings.neutralFrames");
+        assert_eq!(body["detail"], "settings.neutralFrames: must be given");
+        let not_kept = RangeError::NotKept {
+            wanted: 1,
+            first_available: 4,
+            last_available: 9,
+        };
+        let body = Problem::from(Status::from(not_kept)).body();
+        assert_eq!(
+            (&body["firstAvailable"], &body["lastAvailable"]),
+            (&json!(4), &json!(9))
+        );
+    }
+
+    #[test]
+    fn a_problem_says_once_by_which_message_it_came() {
+        let problem = Problem::new(StatusCode::BAD_REQUEST, "JSON", "no JSON");
+        let body = problem.of_message("line", 3).of_message("line", 4).body();
+        assert_eq!(body["line"], 3);
+        assert_eq!(body["detail"], "line 3: no JSON");
     }
 
     #[test]

@@ -1,11 +1,17 @@
-//! Paths and queries that several resources share.
+//! Paths and queries that several resources share, and how a query is read.
+
+mod parameters;
+mod word;
 
 use serde::Deserialize;
 use utoipa::IntoParams;
 
+pub(super) use parameters::read;
+pub(super) use word::Word;
+
 /// Part of a list.
 #[derive(Deserialize, IntoParams)]
-#[serde(deny_unknown_fields, rename_all = "camelCase")]
+#[serde(rename_all = "camelCase")]
 #[into_params(parameter_in = Query)]
 pub(super) struct ListQuery {
     /// Entries of the page; 0: 50, more than 500: 500.

@@ -10,28 +10,33 @@ use frontalis_proto::v1::{self, session_service_server::SessionService as _};
 
 use super::{
     Doors,
-    call::{Answer, Call, Message, PathFields},
+    call::{Answer, BodyMessage, Call, Message},
     openapi::{BodyRefusals, ObjectRefusals, Refusals, StateRefusals},
     problem::Problem,
     query::{ListQuery, SessionPath},
 };
+use crate::service::access::Action;
 
-impl PathFields for v1::CreateSessionRequest {
+impl BodyMessage for v1::CreateSessionRequest {
+    const ACTION: Action = Action::CreateSession;
     const IN_PATH: &'static [&'static str] = &[];
     const MAY_BE_ABSENT: bool = false;
 }
 
-impl PathFields for v1::UpdateSessionRequest {
+impl BodyMessage for v1::UpdateSessionRequest {
+    const ACTION: Action = Action::ChangeSession;
     const IN_PATH: &'static [&'static str] = &["name"];
     const MAY_BE_ABSENT: bool = false;
 }
 
-impl PathFields for v1::RecenterSessionRequest {
+impl BodyMessage for v1::RecenterSessionRequest {
+    const ACTION: Action = Action::ChangeSession;
     const IN_PATH: &'static [&'static str] = &["name"];
     const MAY_BE_ABSENT: bool = true;
 }
 
-impl PathFields for v1::EndSessionRequest {
+impl BodyMessage for v1::EndSessionRequest {
+    const ACTION: Action = Action::EndSession;
     const IN_PATH: &'static [&'static str] = &["name"];
     const MAY_BE_ABSENT: bool = true;
 }
@@ -153,7 +158,9 @@ pub(super) async fn update(
     Ok(answer(response.into_inner().session))
 }
 
-/// Takes the next usable frames as the neutral face again.
+/// Takes another neutral face: the next usable frames, or the quietest that were seen.
+///
+/// A live session goes on with its alignment until the new one is known.
 #[utoipa::path(
     post,
     path = "/api/v1/sessions/{id}/recenter",
@@ -176,10 +183,10 @@ pub(super) async fn update(
 pub(super) async fn recenter(
     State(doors): State<Doors>,
     call: Call,
-    Message(_message): Message<v1::RecenterSessionRequest>,
+    Message(message): Message<v1::RecenterSessionRequest>,
 ) -> Answer<v1::Session> {
     let name = call.name("sessions");
-    let request = call.request(v1::RecenterSessionRequest { name });
+    let request = call.request(v1::RecenterSessionRequest { name, ..message });
     let response = doors.services.sessions.recenter_session(request).await?;
     Ok(answer(response.into_inner().session))
 }

@@ -15,7 +15,7 @@ use axum::{
     http::{HeaderValue, StatusCode, header},
     response::{IntoResponse as _, Response},
 };
-use futures::channel::mpsc;
+use futures::{StreamExt as _, channel::mpsc};
 use hyper::upgrade::{OnUpgrade, Upgraded};
 use hyper_util::rt::TokioIo;
 use tokio_tungstenite::{
@@ -34,7 +34,9 @@ use self::{
     patience::Metered,
     subprotocol::{Direction, Subprotocol},
 };
-use super::{Doors, call::Call, openapi::Refusals, problem::Problem, query::SessionPath};
+use super::{
+    Doors, call::Call, message::Taken, openapi::Refusals, problem::Problem, query::SessionPath,
+};
 use crate::{
     config::SMALL_MESSAGE_BYTES,
     name::SessionId,
@@ -188,9 +190,11 @@ impl Stream {
         let io = Metered::new(TokioIo::new(upgraded));
         let config = config(direction, limit_bytes);
         let socket = WebSocketStream::from_raw_socket(io, Role::Server, Some(config)).await;
+        let taken = Taken::none("message");
         let topic = Topic {
             session: self.session,
             instance: self.instance,
+            taken: taken.clone(),
             form,
             limit_bytes,
             finishes: direction == Direction::Publish,
@@ -198,6 +202,7 @@ impl Stream {
         match direction {
             Direction::Subscribe => {
                 let (inbox, requests) = mpsc::channel(0);
+                let requests = requests.inspect(move |_| taken.take_next());
                 let responses = curves.subscription(requests, self.peer);
                 Conversation::new(topic, socket, inbox, responses)
                     .run()
@@ -205,6 +210,7 @@ impl Stream {
             }
             Direction::Publish => {
                 let (inbox, requests) = mpsc::channel(0);
+                let requests = requests.inspect(move |_| taken.take_next());
                 let responses = capture.publish(requests, self.peer);
                 Conversation::new(topic, socket, inbox, responses)
                     .run()

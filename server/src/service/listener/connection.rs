@@ -25,7 +25,6 @@ use super::{
     lingering::Lingering,
     liveness::Liveness,
     tls::{Handshake, Tls},
-    watched::Watched,
 };
 use crate::{
     config::Config,
@@ -113,7 +112,10 @@ impl Connections {
         });
     }
 
-    async fn serve_tls(&self, tls: &Tls, stream: Watched, about: About) {
+    async fn serve_tls<S>(&self, tls: &Tls, stream: S, about: About)
+    where
+        S: AsyncRead + AsyncWrite + Unpin + Send + 'static,
+    {
         let shaken = tokio::select! {
             shaken = tls.accept(stream, self.handshake_deadline) => shaken,
             () = self.phases.closing.cancelled() => return,
@@ -276,3 +278,6 @@ fn http(config: &Config) -> auto::Builder<TokioExecutor> {
         .max_local_error_reset_streams(LOCAL_ERROR_RESETS);
     builder
 }
+
+#[cfg(test)]
+mod tests;

@@ -2,9 +2,11 @@
 //!
 //! TLS 1.3 and 1.2 with `h2` and `http/1.1`. New connections take what was read last; open ones keep the keys they began
 //! with, but the certificate of their client is judged anew: one that was revoked since, or whose authority is no longer
-//! believed, proves nothing any more. Files that do not fit together change nothing: they are logged, counted, and looked at again.
+//! believed, proves nothing any more. Files that do not
+//! fit together change nothing: they are logged, counted, written down, and looked at again.
 
 mod files;
+mod fingerprint;
 mod peer_certificate;
 mod server_config;
 
@@ -25,10 +27,12 @@ use tokio_util::sync::CancellationToken;
 use crate::{
     config,
     reload::{Occasion, Reloads},
+    service::audit::{Audit, Entry},
     telemetry::{HandshakeFailure, Metrics},
 };
 use files::Files;
 pub use files::TlsError;
+use fingerprint::Fingerprint;
 pub use peer_certificate::PeerCertificate;
 use server_config::Judge;
 
@@ -43,7 +47,7 @@ struct Inner {
 
 /// What one look at the files gave.
 struct Loaded {
-    fingerprint: u64,
+    fingerprint: Fingerprint,
     server: Arc<ServerConfig>,
     judge: Judge,
     /// Names that the certificate vouches for, in small letters.
@@ -93,7 +97,13 @@ impl Tls {
     }
 
     /// Follows the files until the server closes.
-    pub async fn follow(self, mut reloads: Reloads, metrics: Metrics, end: CancellationToken) {
+    pub async fn follow(
+        self,
+        mut reloads: Reloads,
+        metrics: Metrics,
+        audit: Audit,
+        end: CancellationToken,
+    ) {
         let mut refused = None;
         loop {
             let occasion = tokio::select! {
@@ -103,19 +113,25 @@ impl Tls {
             let tls = self.clone();
             let looked = tokio::task::spawn_blocking(move || tls.look(refused, occasion)).await;
             match looked {
-                Ok(Look::Same) => {}
-                Ok(Look::New) => {
+                Ok(Look::Same) => refused = None,
+                Ok(Look::StillRefused) => {}
+                Ok(Look::New { changed }) => {
                     refused = None;
                     metrics.certificates_reloaded(true);
                     tracing::info!("the certificates were read again; new connections get them");
+                    audit.note(Entry::of_server(CHANGE, &changed, "taken"));
                 }
-                Ok(Look::Refused { fingerprint, error }) => {
-                    refused = Some(fingerprint);
+                Ok(Look::Refused { what, error }) => {
+                    refused = Some(what);
                     metrics.certificates_reloaded(false);
-                    tracing::error!(
-                        error = chain(&error),
-                        "the new certificates are refused, the old ones stay"
-                    );
+                    let error = chain(&error);
+                    tracing::error!(error, "the new certificates are refused, the old ones stay");
+                    let changed = what.changed_since(self.current().fingerprint);
+                    audit.note(Entry::of_server(
+                        CHANGE,
+                        &changed,
+                        &format!("refused: {error}"),
+                    ));
                 }
                 Err(error) => tracing::error!(%error, "the certificates could not be looked at"),
             }
@@ -123,33 +139,30 @@ impl Tls {
     }
 
     /// Takes over the files if they are others than before. Those that were refused are tried again only when asked.
-    fn look(&self, refused: Option<u64>, occasion: Occasion) -> Look {
-        let files = match Files::read(&self.0.paths) {
-            Ok(files) => files,
-            // A file that is gone is complained about once, like one that does not fit.
-            Err(_) if refused == Some(UNREADABLE) && occasion == Occasion::Routine => {
-                return Look::Same;
-            }
-            Err(error) => return Look::refused(UNREADABLE, error),
-        };
-        let fingerprint = files.fingerprint();
-        let is_known = fingerprint == self.current().fingerprint
-            || (refused == Some(fingerprint) && occasion == Occasion::Routine);
-        if is_known {
+    fn look(&self, refused: Option<Fingerprint>, occasion: Occasion) -> Look {
+        let before = self.current().fingerprint;
+        let read = Files::read(&self.0.paths);
+        let what = read.as_ref().map_or(Fingerprint::NONE, Fingerprint::of);
+        if what == before {
             return Look::Same;
         }
-        match load(&files) {
-            Ok(loaded) => {
-                files.warn_of_what_is_odd();
-                *self
-                    .0
-                    .current
-                    .write()
-                    .unwrap_or_else(PoisonError::into_inner) = Arc::new(loaded);
-                Look::New
-            }
-            Err(error) => Look::refused(fingerprint, error),
+        if refused == Some(what) && occasion == Occasion::Routine {
+            return Look::StillRefused;
         }
+        match read.and_then(|files| self.take(&files)) {
+            Ok(()) => Look::New {
+                changed: what.changed_since(before),
+            },
+            Err(error) => Look::Refused { what, error },
+        }
+    }
+
+    fn take(&self, files: &Files) -> Result<(), TlsError> {
+        let loaded = Arc::new(load(files)?);
+        files.warn_of_what_is_odd();
+        let current = self.0.current.write();
+        *current.unwrap_or_else(PoisonError::into_inner) = loaded;
+        Ok(())
     }
 
     fn current(&self) -> Arc<Loaded> {
@@ -161,26 +174,28 @@ impl Tls {
     }
 }
 
-/// In place of a fingerprint: the files could not be read.
-const UNREADABLE: u64 = 0;
+/// Event of the audit log.
+const CHANGE: &str = "certificate_change";
 
 /// What a look at the files came to.
 enum Look {
+    /// They are those that are in use.
     Same,
-    New,
-    Refused { fingerprint: u64, error: TlsError },
-}
-
-impl Look {
-    fn refused(fingerprint: u64, error: TlsError) -> Self {
-        Self::Refused { fingerprint, error }
-    }
+    /// They are those that were refused before.
+    StillRefused,
+    New {
+        changed: String,
+    },
+    Refused {
+        what: Fingerprint,
+        error: TlsError,
+    },
 }
 
 fn load(files: &Files) -> Result<Loaded, TlsError> {
     let (server, judge) = server_config::build(files)?;
     Ok(Loaded {
-        fingerprint: files.fingerprint(),
+        fingerprint: Fingerprint::of(files),
         server: Arc::new(server),
         judge,
         names: files.names()?,
@@ -268,4 +283,4 @@ fn certificate_word(reason: &CertificateError) -> &'static str {
 }
 
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;

@@ -3,7 +3,11 @@
 //! A peer that has vanished and one that does not read look alike to a writer. The system knows them apart: what it sends
 //! again, or asks a closed window, the machine of a living peer answers, however long its program sleeps. So a connection
 //! is given up only when the system's own questions stay unanswered; `TCP_USER_TIMEOUT` would end both (D-15, BAD_INPUT
-//! F3, F4). Looked at once a second, more often for one of little patience. Where the system does not tell (other than Linux), its retransmissions end it.
+//! F3, F4). Looked at once a second, more often for one of little patience. Where the system does not tell (other than
+//! Linux), its retransmissions end it.
+
+#[cfg(target_os = "linux")]
+mod unanswered;
 
 use std::{
     io,
@@ -17,6 +21,9 @@ use tokio::{
     net::TcpStream,
     time::{Instant, Interval, MissedTickBehavior, interval},
 };
+
+#[cfg(target_os = "linux")]
+use unanswered::is_unanswered;
 
 /// How often to look, unless that is too rare for the patience.
 const TICK: Duration = Duration::from_secs(1);
@@ -85,52 +92,10 @@ impl Silence {
     }
 }
 
-/// Whether the system has sent something again, or asked a closed window, and heard nothing since.
-#[cfg(target_os = "linux")]
-fn is_unanswered(stream: &TcpStream) -> io::Result<bool> {
-    let info = nix::sys::socket::getsockopt(stream, tcp_info::TcpInfo)?;
-    // A machine whose window is closed acknowledges what is sent again, but does not take it: the count goes on.
-    let is_later_ack = info.last_ack_received_ms <= info.last_data_sent_ms;
-    Ok(info.n_probes > 0 || info.n_retransmits > 0 && !is_later_ack)
-}
-
+/// Where the system does not tell, nobody owes an answer.
 #[cfg(not(target_os = "linux"))]
 fn is_unanswered(_: &TcpStream) -> io::Result<bool> {
     Ok(false)
-}
-
-#[cfg(target_os = "linux")]
-mod tcp_info {
-    /// The first bytes of Linux's `struct tcp_info`.
-    #[repr(C)]
-    #[derive(Clone, Copy, Debug)]
-    pub(super) struct Unanswered {
-        _state: u8,
-        _congestion_state: u8,
-        /// Of what was sent, until it is taken.
-        pub(super) n_retransmits: u8,
-        /// Of a closed window, or of a silent connection, since the last acknowledgement.
-        pub(super) n_probes: u8,
-        _backoff_options_scales_flags: [u8; 4],
-        _timeouts_sizes_counts: [u32; 9],
-        /// Since data was sent, for the first time or again.
-        pub(super) last_data_sent_ms: u32,
-        _last_ack_sent_ms: u32,
-        _last_data_received_ms: u32,
-        /// Since the last acknowledgement.
-        pub(super) last_ack_received_ms: u32,
-    }
-
-    #[derive(Clone, Copy, Debug)]
-    pub(super) struct TcpInfo;
-
-    nix::getsockopt_impl!(
-        TcpInfo,
-        libc::IPPROTO_TCP,
-        libc::TCP_INFO,
-        Unanswered,
-        nix::sys::socket::sockopt::GetStruct<Unanswered>
-    );
 }
 
 impl AsyncRead for Watched {

@@ -2,7 +2,7 @@
 
 use std::time::SystemTime;
 
-use frontalis_analysis::{space::LengthUnit, synthesis::reference_face};
+use frontalis_analysis::{analyzer::NeutralSource, space::LengthUnit, synthesis::reference_face};
 
 use super::*;
 use crate::{
@@ -121,7 +121,10 @@ async fn a_failed_session_answers_and_can_only_end() {
         reason: reason.clone(),
     };
     assert_eq!(publication.check(), Err(PublishEnd::Failed { reason }));
-    assert_eq!(session.recenter().await, Err(failure.clone()));
+    assert_eq!(
+        session.recenter(NeutralSource::NextFrames).await,
+        Err(failure.clone())
+    );
     assert_eq!(session.update(SessionUpdate::default()).await, Err(failure));
     let status = session.status();
     assert_eq!(status.state, SessionState::Failed);

@@ -66,7 +66,7 @@ fn every_frame_starts_where_it_is_told() {
 fn what_this_version_does_not_do_is_said() {
     let check = |sent| {
         let refusal = start(&sent, String::new(), "grpc", true).unwrap_err();
-        assert!(matches!(refusal, SubscribeRefusal::NotImplemented { .. }));
+        assert_eq!(refusal.problem(), &FieldProblem::NotImplemented);
     };
     check(v1::SubscribeStart {
         control_space: 2,
@@ -74,10 +74,6 @@ fn what_this_version_does_not_do_is_said() {
     });
     check(v1::SubscribeStart {
         control_space: 3,
-        ..a_start()
-    });
-    check(v1::SubscribeStart {
-        with_uncertainty: true,
         ..a_start()
     });
 }
@@ -107,8 +103,8 @@ fn a_subscriber_without_a_name_goes_by_its_peer() {
 #[test]
 fn a_wrong_field_is_named() {
     let check = |sent, reason: &str| match start(&sent, String::new(), "grpc", true) {
-        Err(SubscribeRefusal::Invalid(it)) => assert_eq!(it.reason(), reason),
-        other => panic!("{other:?}"),
+        Err(it) => assert_eq!(it.reason(), reason),
+        Ok(other) => panic!("{other:?}"),
     };
     check(
         v1::SubscribeStart {
@@ -148,10 +144,23 @@ fn a_wrong_field_is_named() {
 }
 
 #[test]
-fn a_response_is_as_short_as_it_must_be_for_a_slow_reader() {
-    let plain = SampleDetail::default();
-    let full = SampleDetail { with_markers: true };
-    assert_eq!(samples_in_a_response(16, 27, plain), 53);
-    assert_eq!(samples_in_a_response(16, 27, full), 17);
-    assert_eq!(samples_in_a_response(64, 1_024, full), 1);
+fn bounds_of_a_control_are_its_own_or_those_of_all() {
+    let muscle = Muscle {
+        name: "jaw_rotation".to_owned(),
+        region: frontalis_analysis::face::region::FaceRegion::Lower,
+    };
+    let bounds = |settings: &MarkerSettings| {
+        let it = control(&muscle, settings);
+        (it.lower, it.upper)
+    };
+    let mut settings = MarkerSettings::default();
+    assert_eq!(bounds(&settings), (0.0, 1.0));
+    settings.allow_exaggeration = true;
+    assert_eq!(bounds(&settings), (0.0, 2.0));
+    settings.objective.bounds = vec![MuscleBounds {
+        muscle: muscle.name.clone(),
+        lower: 0.25,
+        upper: 0.75,
+    }];
+    assert_eq!(bounds(&settings), (0.25, 0.75));
 }

@@ -1,5 +1,7 @@
 //! Settings of a session: what was asked for becomes effective values, by default, by presence or by field mask.
 
+mod objective;
+
 use std::time::Duration;
 
 use frontalis_analysis::analyzer::RegionMode;
@@ -7,8 +9,13 @@ use frontalis_proto::v1;
 
 use crate::{
     session::SessionSettings,
-    wire::invalid::{FieldError, FieldProblem},
+    wire::{
+        common::narrow,
+        invalid::{FieldError, FieldProblem},
+    },
 };
+
+pub use objective::check_objective;
 
 /// Range of `neutral_frames`.
 const NEUTRAL_FRAMES: std::ops::RangeInclusive<u32> = 1..=256;
@@ -16,7 +23,7 @@ const NEUTRAL_FRAMES: std::ops::RangeInclusive<u32> = 1..=256;
 const DURATIONS: [Duration; 2] = [Duration::from_millis(10), Duration::from_secs(3_600)];
 
 /// Every field of the message; a mask may name no other.
-const FIELDS: [&str; 13] = [
+const FIELDS: [&str; 16] = [
     "neutral_frames",
     "allow_exaggeration",
     "smoothing",
@@ -30,24 +37,36 @@ const FIELDS: [&str; 13] = [
     "plain",
     "align_on_request",
     "record_images",
+    "symmetry",
+    "bounds",
+    "exclusive_pairs",
 ];
 
 /// `base` with what `asked` changes.
 ///
 /// With an empty mask the fields that are present change; else the masked ones, and those of them that are absent go
-/// back to their defaults. Paths are field names, with or without `settings.` before them.
+/// back to their defaults. A list counts as present when it is not empty, and is replaced as a whole. Paths are field
+/// names, with or without `settings.` before them.
 ///
 /// # Errors
 ///
-/// The first field or path that is refused, by name.
+/// The first field or path that is refused, by its name in a request that holds them as `settings`. [`check_objective`] asks the
+/// rest, which depends on the actor.
 pub fn apply(
     asked: &v1::SessionSettings,
     mask: &[String],
     base: &SessionSettings,
 ) -> Result<SessionSettings, FieldError> {
     check_mask(mask)?;
-    let change = Change { mask };
-    refuse_what_is_not_built(&change, asked)?;
+    changed(asked, &Change { mask }, base).map_err(|error| error.inside("settings"))
+}
+
+fn changed(
+    asked: &v1::SessionSettings,
+    change: &Change<'_>,
+    base: &SessionSettings,
+) -> Result<SessionSettings, FieldError> {
+    refuse_what_is_not_built(change, asked)?;
     let default = SessionSettings::default();
     let mut next = base.clone();
     let (marker, default_marker) = (&mut next.marker, &default.marker);
@@ -81,6 +100,7 @@ pub fn apply(
         &mut marker.align_on_request,
         default_marker.align_on_request,
     );
+    marker.objective = objective::apply(change, asked, &marker.objective)?;
     let stale_after = asked
         .stale_after
         .map(|it| duration("stale_after", it))
@@ -104,7 +124,7 @@ pub fn apply(
     Ok(next)
 }
 
-/// All settings as they take effect; what is not built is off.
+/// All settings as they are in force; what is not built is off.
 pub fn effective(settings: &SessionSettings) -> v1::SessionSettings {
     let marker = &settings.marker;
     let region_mode = match marker.region_mode {
@@ -112,20 +132,24 @@ pub fn effective(settings: &SessionSettings) -> v1::SessionSettings {
         RegionMode::Split => v1::RegionMode::Split,
     };
     let proto = |it: Duration| Some(pbjson_types::Duration::from(it));
+    let objective = &marker.objective;
     v1::SessionSettings {
         neutral_frames: u32::try_from(marker.neutral_frames).ok(),
         allow_exaggeration: Some(marker.allow_exaggeration),
-        smoothing: Some(0.0),
-        sparsity: Some(0.0),
-        robust: Some(false),
+        smoothing: Some(narrow(objective.smoothing)),
+        sparsity: Some(narrow(objective.sparsity)),
+        robust: Some(objective.robust),
         stabilize_head: Some(marker.stabilize_head),
         stale_after: settings.stale_after.and_then(proto),
         publisher_timeout: proto(settings.publisher_timeout),
         record: Some(false),
         region_mode: region_mode.into(),
-        plain: Some(false),
+        plain: Some(objective.is_plain()),
         align_on_request: Some(marker.align_on_request),
         record_images: Some(false),
+        symmetry: Some(narrow(objective.symmetry)),
+        bounds: objective::bounds_to_wire(objective),
+        exclusive_pairs: objective::pairs_to_wire(objective),
     }
 }
 
@@ -139,21 +163,19 @@ impl Change<'_> {
         self.mask.iter().any(|path| bare(path) == field)
     }
 
-    fn put<T>(&self, field: &str, asked: Option<T>, place: &mut T, default: T) {
+    /// What the request wants of a field; `None`: it stays.
+    fn wanted<T>(&self, field: &str, asked: Option<T>, default: T) -> Option<T> {
         let masked = self.names(field);
         if !self.mask.is_empty() && !masked {
-            return;
+            return None;
         }
-        match asked {
-            Some(value) => *place = value,
-            None if masked => *place = default,
-            None => {}
-        }
+        asked.or(masked.then_some(default))
     }
 
-    /// Whether the field's value counts.
-    fn takes(&self, field: &str) -> bool {
-        self.mask.is_empty() || self.names(field)
+    fn put<T>(&self, field: &str, asked: Option<T>, place: &mut T, default: T) {
+        if let Some(value) = self.wanted(field, asked, default) {
+            *place = value;
+        }
     }
 }
 
@@ -176,29 +198,12 @@ fn refuse_what_is_not_built(
     change: &Change<'_>,
     asked: &v1::SessionSettings,
 ) -> Result<(), FieldError> {
-    for (field, amount) in [("smoothing", asked.smoothing), ("sparsity", asked.sparsity)] {
-        let Some(amount) = amount.filter(|_| change.takes(field)) else {
-            continue;
-        };
-        if !(0.0..=1.0).contains(&amount) {
-            let problem = FieldProblem::Range {
-                found: amount.into(),
-                expected: "0..=1",
-            };
-            return Err(FieldError::new(field, problem));
-        }
-        if amount > 0.0 {
-            return Err(FieldError::new(field, FieldProblem::NotImplemented));
-        }
-    }
     let switches = [
-        ("robust", asked.robust),
         ("record", asked.record),
-        ("plain", asked.plain),
         ("record_images", asked.record_images),
     ];
     for (field, on) in switches {
-        if on == Some(true) && change.takes(field) {
+        if change.wanted(field, on, false) == Some(true) {
             return Err(FieldError::new(field, FieldProblem::NotImplemented));
         }
     }
@@ -240,131 +245,4 @@ fn duration(field: &'static str, asked: pbjson_types::Duration) -> Result<Durati
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn refused(asked: v1::SessionSettings) -> (&'static str, &'static str) {
-        let error = apply(&asked, &[], &SessionSettings::default()).unwrap_err();
-        (error.field(), error.reason())
-    }
-
-    fn off() -> v1::SessionSettings {
-        v1::SessionSettings::default()
-    }
-
-    #[test]
-    fn effective_settings_sent_back_change_nothing() {
-        let mut settings = SessionSettings::default();
-        settings.marker.neutral_frames = 30;
-        settings.marker.region_mode = RegionMode::Split;
-        settings.marker.stabilize_head = false;
-        settings.stale_after = Some(Duration::from_millis(250));
-        let back = apply(&effective(&settings), &[], &SessionSettings::default()).unwrap();
-        assert_eq!(back, settings);
-    }
-
-    #[test]
-    fn d13_each_number_out_of_range_is_named() {
-        for count in [0, 257, u32::MAX] {
-            let asked = v1::SessionSettings {
-                neutral_frames: Some(count),
-                ..off()
-            };
-            assert_eq!(refused(asked), ("neutral_frames", "SOLVER_OPTIONS"));
-        }
-        for amount in [-0.1, 1.1, f32::NAN, f32::INFINITY] {
-            let smoothing = v1::SessionSettings {
-                smoothing: Some(amount),
-                ..off()
-            };
-            assert_eq!(refused(smoothing), ("smoothing", "SOLVER_OPTIONS"));
-            let sparsity = v1::SessionSettings {
-                sparsity: Some(amount),
-                ..off()
-            };
-            assert_eq!(refused(sparsity), ("sparsity", "SOLVER_OPTIONS"));
-        }
-        for (seconds, nanos) in [(0, 0), (-1, 0), (3_601, 0), (i64::MAX, i32::MIN)] {
-            let long = Some(pbjson_types::Duration { seconds, nanos });
-            let stale = v1::SessionSettings {
-                stale_after: long,
-                ..off()
-            };
-            assert_eq!(refused(stale), ("stale_after", "SOLVER_OPTIONS"));
-            let timeout = v1::SessionSettings {
-                publisher_timeout: long,
-                ..off()
-            };
-            assert_eq!(refused(timeout), ("publisher_timeout", "SOLVER_OPTIONS"));
-        }
-        let asked = v1::SessionSettings {
-            region_mode: 5,
-            ..off()
-        };
-        assert_eq!(refused(asked), ("region_mode", "ENUM"));
-    }
-
-    #[test]
-    fn what_is_not_built_is_refused_when_asked_for_and_accepted_as_off() {
-        let on = |change: fn(&mut v1::SessionSettings)| {
-            let mut asked = off();
-            change(&mut asked);
-            refused(asked)
-        };
-        assert_eq!(
-            on(|it| it.smoothing = Some(0.5)),
-            ("smoothing", "NOT_IMPLEMENTED")
-        );
-        assert_eq!(
-            on(|it| it.sparsity = Some(1.0)),
-            ("sparsity", "NOT_IMPLEMENTED")
-        );
-        assert_eq!(
-            on(|it| it.robust = Some(true)),
-            ("robust", "NOT_IMPLEMENTED")
-        );
-        assert_eq!(
-            on(|it| it.record = Some(true)),
-            ("record", "NOT_IMPLEMENTED")
-        );
-        assert_eq!(on(|it| it.plain = Some(true)), ("plain", "NOT_IMPLEMENTED"));
-        assert_eq!(
-            on(|it| it.record_images = Some(true)),
-            ("record_images", "NOT_IMPLEMENTED")
-        );
-        let base = SessionSettings::default();
-        assert_eq!(apply(&effective(&base), &[], &base).unwrap(), base);
-    }
-
-    #[test]
-    fn a_mask_changes_what_it_names_and_resets_what_is_absent() {
-        let mut base = SessionSettings::default();
-        base.marker.neutral_frames = 40;
-        base.marker.stabilize_head = false;
-        let asked = v1::SessionSettings {
-            allow_exaggeration: Some(true),
-            stabilize_head: Some(true),
-            record: Some(true),
-            ..off()
-        };
-        let mask = [
-            "neutral_frames".to_owned(),
-            "settings.allow_exaggeration".to_owned(),
-        ];
-        let next = apply(&asked, &mask, &base).unwrap();
-        assert_eq!(next.marker.neutral_frames, 15);
-        assert!(next.marker.allow_exaggeration);
-        assert!(!next.marker.stabilize_head);
-    }
-
-    #[test]
-    fn a_mask_with_an_unknown_path_is_refused() {
-        let mask = ["neutral_frames".to_owned(), "colour".to_owned()];
-        let error = apply(&off(), &mask, &SessionSettings::default()).unwrap_err();
-        assert_eq!(
-            (error.field(), error.reason()),
-            ("update_mask", "FIELD_MASK")
-        );
-        assert!(error.to_string().contains("path 1"));
-    }
-}
+mod tests;

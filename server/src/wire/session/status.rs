@@ -1,11 +1,18 @@
 //! A session's figures on the wire, all of them finite.
 
+use frontalis_analysis::marker_analysis::{
+    neutral_watch::{DoubtCause, NeutralDoubt},
+    range::{Percentiles, Verdict},
+};
 use frontalis_proto::v1;
 
 use crate::{
     hub::{SessionState, SubscriberStatus},
     session::{AlignmentReport, ControlRange, SessionStatus, StageLatency},
-    wire::{actor::finite, common::session_state},
+    wire::{
+        actor::finite,
+        common::{narrow, session_state},
+    },
 };
 
 /// A state in words, for metrics and JSON.
@@ -40,6 +47,7 @@ pub(super) fn status(status: &SessionStatus) -> v1::SessionStatus {
         alignment_problem: status.alignment_problem.unwrap_or_default().to_owned(),
         clock: None,
         unknown_markers: status.unknown_markers.clone(),
+        neutral_doubt: status.neutral_doubt.as_ref().map(doubt),
     }
 }
 
@@ -73,16 +81,99 @@ fn subscriber(it: &SubscriberStatus) -> v1::SubscriberStatus {
     }
 }
 
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "the wire carries f32; what is finite stays finite"
-)]
 fn range(it: &ControlRange) -> v1::ControlRange {
-    let narrow = |value: f64| (finite(value) as f32).clamp(f32::MIN, f32::MAX);
+    let judged = it.judged.as_ref().filter(|it| it.n_frames > 0);
+    let verdict = verdict(judged.map(|it| it.verdict).unwrap_or_default());
     v1::ControlRange {
         control: it.control.clone(),
         min: narrow(it.min),
         max: narrow(it.max),
-        out_of_range: 0.0,
+        out_of_range: judged.map_or(0.0, |it| narrow(it.out_of_range)),
+        n_frames: judged.map_or(0, |it| it.n_frames),
+        bounded: judged.map(|it| percentiles(&it.bounded)),
+        unbounded: judged.map(|it| percentiles(&it.unbounded)),
+        verdict: verdict.into(),
+        sentence: verdict.sentence().to_owned(),
+    }
+}
+
+fn percentiles(it: &Percentiles) -> v1::Percentiles {
+    v1::Percentiles {
+        p1: narrow(it.p1),
+        p99: narrow(it.p99),
+    }
+}
+
+fn verdict(verdict: Verdict) -> v1::RangeVerdict {
+    match verdict {
+        Verdict::NotYetSeen => v1::RangeVerdict::NotYetSeen,
+        Verdict::Sound => v1::RangeVerdict::Sound,
+        Verdict::TooWeak => v1::RangeVerdict::TooWeak,
+        Verdict::TooStrong => v1::RangeVerdict::TooStrong,
+        Verdict::WrongDirection => v1::RangeVerdict::WrongDirection,
+        Verdict::HardlyObservable => v1::RangeVerdict::HardlyObservable,
+    }
+}
+
+fn doubt(it: &NeutralDoubt) -> v1::NeutralDoubt {
+    let cause = match it.cause {
+        DoubtCause::LooksContracted => v1::NeutralDoubtCause::LooksContracted,
+        DoubtCause::QuieterFramesSeen => v1::NeutralDoubtCause::QuieterFramesSeen,
+    };
+    v1::NeutralDoubt {
+        cause: cause.into(),
+        residual_cm: finite(it.residual_cm),
+        expected_cm: finite(it.expected_cm),
+        advice: format!("{} {}", cause.sentence(), cause.advice()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_verdict_keeps_its_identifier_and_says_something() {
+        for it in [
+            Verdict::NotYetSeen,
+            Verdict::Sound,
+            Verdict::TooWeak,
+            Verdict::TooStrong,
+            Verdict::WrongDirection,
+            Verdict::HardlyObservable,
+        ] {
+            let wire = verdict(it);
+            let name = format!("RANGE_VERDICT_{}", it.identifier());
+            assert_eq!(wire.as_str_name(), name);
+            assert!(!wire.sentence().is_empty(), "{name}");
+        }
+    }
+
+    #[test]
+    fn a_doubt_says_why_and_what_to_do() {
+        for cause in [DoubtCause::LooksContracted, DoubtCause::QuieterFramesSeen] {
+            let wire = doubt(&NeutralDoubt {
+                cause,
+                residual_cm: f64::NAN,
+                expected_cm: 0.02,
+            });
+            let name = format!("NEUTRAL_DOUBT_CAUSE_{}", cause.identifier());
+            assert_eq!(wire.cause().as_str_name(), name);
+            assert!(wire.advice.contains("ecenter"), "{}", wire.advice);
+            assert!(wire.residual_cm.is_finite());
+        }
+    }
+
+    #[test]
+    fn a_control_that_nobody_judged_yet_has_its_extremes_and_no_percentiles() {
+        let wire = range(&ControlRange {
+            control: "jaw".into(),
+            min: f64::INFINITY,
+            max: f64::NEG_INFINITY,
+            judged: None,
+        });
+        assert!(wire.min.is_finite() && wire.max.is_finite());
+        assert_eq!((wire.n_frames, wire.bounded), (0, None));
+        assert_eq!(wire.verdict(), v1::RangeVerdict::NotYetSeen);
     }
 }

@@ -2,6 +2,7 @@
 
 use std::time::Duration;
 
+use frontalis_analysis::analyzer::NeutralSource;
 use frontalis_proto::v1::{GapCause, SessionState};
 use tokio::time::{Instant, advance};
 
@@ -478,7 +479,11 @@ async fn frames_before_a_requested_alignment_are_gaps() {
             ..
         }
     )));
-    stage.session.recenter().await.unwrap();
+    stage
+        .session
+        .recenter(NeutralSource::NextFrames)
+        .await
+        .unwrap();
     let neutral = (4..=9).map(|number| v1::MarkerFrame {
         number,
         ..stage.frame(1)
@@ -542,13 +547,21 @@ async fn resuming_keeps_the_alignment_unless_the_stream_has_another_shape() {
 }
 
 #[tokio::test(start_paused = true)]
-async fn recentering_aligns_again_and_numbers_go_on() {
+async fn a_live_session_recenters_while_its_curves_go_on() {
     let mut stage = Stage::new().await;
     let mut recorder = stage.renderer(every_frame()).await;
     let mut publisher = stage.publisher("stage").await;
     publisher.publish(stage.frames(1..=10)).await;
     recorder.see_through(10).await;
-    stage.session.recenter().await.unwrap();
+    let n_states = recorder.states.len();
+    stage
+        .session
+        .recenter(NeutralSource::NextFrames)
+        .await
+        .unwrap();
+    let status = stage.session.status();
+    assert_eq!(status.state, crate::hub::SessionState::Live);
+    assert!(status.alignment.is_some());
     let neutral = (11..=16).map(|number| v1::MarkerFrame {
         number,
         ..stage.frame(1)
@@ -556,15 +569,113 @@ async fn recentering_aligns_again_and_numbers_go_on() {
     publisher.publish(neutral.collect()).await;
     let seen = recorder.see_through(16).await;
     assert_eq!(seen, (11..=16).map(|it| sample(it, it)).collect::<Vec<_>>());
+    assert!(
+        recorder.states[n_states..]
+            .iter()
+            .all(|it| it.0 == SessionState::Live)
+    );
     let names: Vec<_> = std::iter::from_fn(|| stage.events.try_recv().ok()).collect();
     assert!(matches!(
         names[..],
-        [
-            SessionEvent::Aligned { .. },
-            SessionEvent::AlignmentForgotten { .. },
-            SessionEvent::Aligned { .. }
-        ]
+        [SessionEvent::Aligned { .. }, SessionEvent::Aligned { .. }]
     ));
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_neutral_face_that_cannot_replace_the_old_one_is_said_and_the_stream_goes_on() {
+    let mut stage = Stage::new().await;
+    let mut recorder = stage.renderer(every_frame()).await;
+    let mut publisher = stage.publisher("stage").await;
+    publisher.publish(stage.frames(1..=10)).await;
+    stage
+        .session
+        .recenter(NeutralSource::NextFrames)
+        .await
+        .unwrap();
+    // A face of ten times its size is none in the declared unit.
+    let too_large = (11..=14).map(|number| v1::MarkerFrame {
+        number,
+        ..stage.frame_in(1, 100.0)
+    });
+    publisher.publish(too_large.collect()).await;
+    recorder.see_through(14).await;
+    let status = stage.session.status();
+    assert_eq!(status.alignment_problem, Some("UNITS_SUSPECT"));
+    assert_eq!(status.state, crate::hub::SessionState::Live);
+    assert!(status.alignment.is_some());
+    publisher.publish(stage.frames(15..=20)).await;
+    let seen = recorder.see_through(20).await;
+    // Frames at another scale give no samples, but a new neutral face is looked for in them.
+    let samples = (15..=20).map(|it| sample(it, it - 4));
+    assert_eq!(seen, samples.collect::<Vec<_>>());
+    let rejected = (11..=13).map(|it| (it, "SCALE_JUMP".to_owned()));
+    assert_eq!(publisher.rejected, rejected.collect::<Vec<_>>());
+
+    // Another request is another attempt.
+    stage
+        .session
+        .recenter(NeutralSource::NextFrames)
+        .await
+        .unwrap();
+    assert_eq!(stage.session.status().alignment_problem, None);
+    assert!(matches!(
+        stage.events.recv().await,
+        Some(SessionEvent::Aligned { .. })
+    ));
+    assert!(stage.events.try_recv().is_err());
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_request_after_a_restart_waits_for_frames_while_the_old_alignment_holds_on() {
+    let mut stage = Stage::new().await;
+    let mut publisher = stage.publisher("stage").await;
+    publisher.publish(stage.frames(1..=10)).await;
+    let Some(SessionEvent::Aligned {
+        alignment, shape, ..
+    }) = stage.events.recv().await
+    else {
+        panic!("aligned");
+    };
+    let restored = RestoredAlignment {
+        alignment: *alignment,
+        shape,
+    };
+    let mut again = Stage::with(SessionLimits::default(), settings(), Some(restored)).await;
+    again
+        .session
+        .recenter(NeutralSource::NextFrames)
+        .await
+        .unwrap();
+    let mut recorder = again.renderer(every_frame()).await;
+    let mut publisher = again.publisher("stage").await;
+    let neutral = (11..=16).map(|number| v1::MarkerFrame {
+        number,
+        ..again.frame(1)
+    });
+    publisher.publish(neutral.collect()).await;
+    let seen = recorder.see_through(16).await;
+    assert_eq!(
+        seen,
+        (11..=16).map(|it| sample(it, it - 10)).collect::<Vec<_>>()
+    );
+    assert!(matches!(
+        again.events.recv().await,
+        Some(SessionEvent::Aligned { .. })
+    ));
+}
+
+#[tokio::test(start_paused = true)]
+async fn the_quietest_frames_are_refused_before_there_are_any() {
+    let stage = Stage::new().await;
+    let id = stage.session.id().clone();
+    let recenter = async || {
+        let quietest = NeutralSource::QuietestFrames;
+        stage.sessions.recenter(&id, quietest).await.unwrap_err()
+    };
+    assert_refused(&recenter().await, Code::FailedPrecondition, "NOT_ALIGNED");
+    let mut publisher = stage.publisher("stage").await;
+    publisher.publish(stage.frames(1..NEUTRAL_FRAMES)).await;
+    assert_refused(&recenter().await, Code::FailedPrecondition, "NOT_ALIGNED");
 }
 
 #[tokio::test(start_paused = true)]
@@ -700,7 +811,8 @@ async fn ending_finishes_the_queue_and_closes_both_sides() {
     assert!(recorder.states.iter().any(|it| it.0 == SessionState::Ended));
     let refused = stage.start(start("stage")).await.end().await;
     assert_refused(&refused, Code::FailedPrecondition, "SESSION_ENDED");
-    assert!(stage.session.recenter().await.is_err());
+    let next = NeutralSource::NextFrames;
+    assert!(stage.session.recenter(next).await.is_err());
     assert!(matches!(
         stage.events.recv().await,
         Some(SessionEvent::Ended { .. })

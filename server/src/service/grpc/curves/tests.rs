@@ -3,7 +3,7 @@
 use std::time::Duration;
 
 use frontalis_proto::v1::SessionState;
-use tokio::time::{Instant, sleep, timeout};
+use tokio::time::{Instant, sleep, sleep_until, timeout};
 use tonic::Code;
 
 use super::*;
@@ -85,11 +85,13 @@ async fn a_renderer_that_pauses_gets_its_credits_of_stale_samples_and_then_a_fre
     let mut publisher = stage.publisher("stage").await;
     publisher.publish(stage.frames(1..=10)).await;
     // The wall does not read for twenty seconds of sixty frames a second.
+    let mut recorded = recorder.samples_through(10).await.len();
     for number in 11..=1_210 {
         publisher.send(stage.frames([number])).await;
         publisher.response().await.unwrap();
+        recorded += recorder.samples_through(number).await.len();
     }
-    assert_eq!(recorder.samples_through(1_210).await.len(), 1_210);
+    assert_eq!(recorded, 1_210);
     let mut n_stale = 0;
     loop {
         let response = wall.response().await.unwrap();
@@ -252,12 +254,6 @@ async fn what_cannot_be_subscribed_is_refused_with_its_reason() {
         "NOT_IMPLEMENTED",
     )
     .await;
-    check(
-        |it| it.with_uncertainty = true,
-        Code::Unimplemented,
-        "NOT_IMPLEMENTED",
-    )
-    .await;
     check(|it| it.control_space = 9, Code::InvalidArgument, "ENUM").await;
     let mut hasty = stage.silent_renderer();
     hasty.grant(1).await;
@@ -308,4 +304,54 @@ async fn more_subscribers_than_the_session_may_have_are_refused() {
     drop(first);
     stage.renderer(latest(2)).await;
     assert!(stage.start(start("stage")).await.response().await.is_ok());
+}
+
+#[tokio::test(start_paused = true)]
+async fn f4_a_recorder_that_takes_nothing_for_thirty_seconds_is_given_up_with_what_it_lost() {
+    let stage = Stage::new().await;
+    let mut recorder = stage.renderer(every_frame()).await;
+    let mut wall = stage.renderer(latest(1)).await;
+    let mut publisher = stage.publisher("stage").await;
+    publisher.publish(stage.frames(1..=10)).await;
+    recorder.samples_through(10).await;
+    let end = Instant::now() + MAX_PAUSE;
+    publisher.publish(stage.frames(11..=20)).await;
+    sleep_until(end.checked_sub(FRAME).unwrap()).await;
+    assert_eq!(stage.session.status().subscribers.len(), 2);
+    sleep_until(end + FRAME).await;
+    // One of the newest sample may pause for any time.
+    assert_eq!(stage.session.status().subscribers.len(), 1);
+    publisher.publish(stage.frames(21..=25)).await;
+    assert_eq!(wall.samples_through(10).await.len(), 1);
+
+    let lagged = recorder.end().await.1;
+    assert_refused(&lagged, Code::DataLoss, "SUBSCRIBER_LAGGED");
+    let lost = "samples 11 to 20 (frames 11 to 20) were not taken within 30 s";
+    assert_eq!(lagged.message(), lost);
+    // What is still kept can still be had.
+    let asked = v1::SubscribeStart {
+        from_sequence: 11,
+        run: 1,
+        from_oldest: false,
+        ..every_frame()
+    };
+    let mut resumed = stage.renderer(asked).await;
+    assert_eq!(resumed.samples_through(25).await.len(), 15);
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_recorder_that_is_slow_or_has_all_there_is_is_not_given_up() {
+    let stage = Stage::new().await;
+    let mut recorder = stage.renderer(every_frame()).await;
+    let mut publisher = stage.publisher("stage").await;
+    publisher.publish(stage.frames(1..=10)).await;
+    recorder.samples_through(10).await;
+    sleep(MAX_PAUSE * 4).await;
+    publisher.publish(stage.frames(11..=200)).await;
+    let mut n_samples = 0;
+    while n_samples < 190 {
+        n_samples += recorder.response().await.unwrap().samples.len();
+        sleep(MAX_PAUSE.saturating_sub(FRAME)).await;
+    }
+    assert_eq!(n_samples, 190);
 }

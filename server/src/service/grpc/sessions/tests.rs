@@ -1,5 +1,6 @@
 //! What happens to a session between memory and catalogue, where a client could not provoke it.
 
+use frontalis_analysis::analyzer::NeutralSource;
 use frontalis_proto::v1::curve_service_server::CurveService as _;
 use futures::FutureExt as _;
 use tonic::Code;
@@ -24,7 +25,8 @@ async fn an_update_that_the_session_refuses_leaves_the_catalogue_as_it_was() {
     let id = SessionId::from_resource(SESSION).unwrap();
     let before = stage.store.session(&id).await.unwrap();
     // The session's task gets no turn between these, so they fill its queue.
-    while stage.session.recenter().now_or_never().is_none() {}
+    let next = NeutralSource::NextFrames;
+    while stage.session.recenter(next).now_or_never().is_none() {}
     let refused = stage.sessions.update(&id, wider()).await.unwrap_err();
     assert_refused(&refused, Code::ResourceExhausted, "SESSION_BUSY");
     let after = stage.store.session(&id).await.unwrap();
@@ -52,7 +54,8 @@ async fn a_session_of_which_only_the_catalogue_knows_ended_for_everyone() {
         );
     };
     ended(&stage.sessions.update(&id, wider()).await.unwrap_err());
-    ended(&stage.sessions.recenter(&id).await.unwrap_err());
+    let next = NeutralSource::NextFrames;
+    ended(&stage.sessions.recenter(&id, next).await.unwrap_err());
     ended(&stage.sessions.handle(&id).await.unwrap_err());
     ended(&stage.start(start("stage")).await.end().await);
     ended(&stage.subscribe(every_frame()).await.end().await.1);

@@ -25,7 +25,7 @@ use super::super::{
     call::{Call, check_encoding, media_type},
     openapi::{self, BodyRefusals, ObjectRefusals, Refusals, StateRefusals},
     problem::Problem,
-    query::ActorPath,
+    query::{ActorPath, Word},
 };
 use crate::service::grpc::status::refuse;
 
@@ -41,7 +41,7 @@ const MEDIA_TYPES: [&str; 3] = [
 
 /// What is said of a package beside its bytes.
 #[derive(Deserialize, IntoParams)]
-#[serde(deny_unknown_fields, rename_all = "camelCase")]
+#[serde(rename_all = "camelCase")]
 #[into_params(parameter_in = Query)]
 pub(in crate::service::http) struct ImportQuery {
     /// In place of the package's own name for people.
@@ -50,8 +50,8 @@ pub(in crate::service::http) struct ImportQuery {
     display_name: String,
     /// The package must be in this unit; a GLB is in meters.
     #[serde(default)]
-    #[param(required = false, schema_with = openapi::length_unit)]
-    unit: v1::LengthUnit,
+    #[param(required = false, value_type = String, schema_with = openapi::length_unit)]
+    unit: Word,
     /// Accept a rank-deficient basis and report it.
     #[serde(default)]
     #[param(required = false)]
@@ -102,7 +102,7 @@ pub(in crate::service::http) async fn import(
     let start = v1::ImportActorStart {
         actor_id: call.id().to_owned(),
         display_name: call.query.display_name.clone(),
-        unit: call.query.unit.into(),
+        unit: call.query.unit.number("unit", "LengthUnit")?,
         regularize: call.query.regularize,
     };
     let import = actors.begin_import(place, start)?;

@@ -10,27 +10,40 @@ use axum::{
     http::{HeaderMap, HeaderValue, StatusCode, header},
 };
 use bytes::BytesMut;
+use frontalis_analysis::{
+    face::actor::MAX_MUSCLES, marker_analysis::objective::MAX_EXCLUSIVE_PAIRS,
+};
 use http_body_util::BodyExt as _;
-use serde::de::DeserializeOwned;
+use prost::Name;
 use tokio::sync::{Semaphore, SemaphorePermit};
 use tonic::{Code, Status};
 
-use super::{Problem, json};
+use super::Problem;
 use crate::{
     config::{LARGE_BODIES, LARGE_BODY_BYTES, SMALL_MESSAGE_BYTES},
     service::{
+        access::{Action, Caller},
         grpc::{refusal::limit, status::refuse},
-        http::Doors,
+        http::{
+            Doors,
+            json::{self, Rules},
+        },
     },
 };
+
+/// Most objects in a body: the message, the settings in it, and their bounds and pairs; a pair too many is still read, to be
+/// refused by name.
+const MAX_OBJECTS: usize = 8 + MAX_MUSCLES + 2 * MAX_EXCLUSIVE_PAIRS;
 
 /// The message of the body.
 pub(in crate::service::http) struct Message<T>(pub T);
 
-/// A message of which the path says a part, so that the body must not.
-pub(in crate::service::http) trait PathFields:
-    DeserializeOwned + Default + Send
+/// A message that is a body, of which the path may say a part that the body then must not.
+pub(in crate::service::http) trait BodyMessage:
+    Name + Default + Send
 {
+    /// What is done with it: whoever may not is told so before the body is read.
+    const ACTION: Action;
     /// The fields that the path says, as JSON names them.
     const IN_PATH: &'static [&'static str];
     /// Whether nothing is left that a body must say.
@@ -47,11 +60,12 @@ impl Default for LargeBodies {
     }
 }
 
-impl<T: PathFields> FromRequest<Doors> for Message<T> {
+impl<T: BodyMessage> FromRequest<Doors> for Message<T> {
     type Rejection = Problem;
 
     async fn from_request(request: Request, doors: &Doors) -> Result<Self, Problem> {
         let (parts, body) = request.into_parts();
+        Caller::of(&parts.extensions).may(T::ACTION)?;
         check_encoding(&parts.headers)?;
         let kind = media_type(&parts.headers);
         if kind.as_deref().is_some_and(|it| it != "application/json") {
@@ -64,7 +78,12 @@ impl<T: PathFields> FromRequest<Doors> for Message<T> {
         if kind.is_none() {
             return Err(not_json());
         }
-        json::message(&bytes, T::IN_PATH).map(Self)
+        let rules = Rules {
+            in_path: T::IN_PATH,
+            max_objects: MAX_OBJECTS,
+        };
+        let read = json::read(&bytes, rules).map_err(Status::from)?;
+        Ok(Self(read))
     }
 }
 

@@ -7,14 +7,14 @@ use frontalis_proto::v1;
 use serde::Deserialize;
 use utoipa::IntoParams;
 
-use super::super::{openapi, problem::Problem};
+use super::super::{openapi, problem::Problem, query::Word};
 
 /// Header of a browser that comes back.
 const LAST_EVENT_ID: &str = "last-event-id";
 
 /// `SubscribeStart` as a query.
 #[derive(Clone, Debug, Default, Deserialize, IntoParams)]
-#[serde(deny_unknown_fields, default, rename_all = "camelCase")]
+#[serde(default, rename_all = "camelCase")]
 #[into_params(parameter_in = Query)]
 pub(in super::super) struct EventsQuery {
     /// A name for status and logs; empty: the peer's address.
@@ -38,8 +38,8 @@ pub(in super::super) struct EventsQuery {
     /// `muscles`, which is the default; this version has no other.
     #[param(required = false, value_type = String, pattern = "^((CONTROL_SPACE_)?MUSCLES|muscles|)$", example = "muscles")]
     control_space: Word,
-    /// Fill `standardErrors`; this version cannot.
-    #[param(required = false, schema_with = openapi::not_yet)]
+    /// Fill `standardErrors`.
+    #[param(required = false)]
     with_uncertainty: bool,
     /// Fill `observedCm`, `reproducedCm` and `observedMarkers`.
     #[param(required = false)]
@@ -65,32 +65,6 @@ pub(super) struct LastEventId {
     last_event_id: String,
 }
 
-/// The name of an enum's value, with or without the enum's own name in front.
-#[derive(Clone, Debug, Default, Deserialize)]
-#[serde(transparent)]
-struct Word(String);
-
-impl Word {
-    fn number<E>(&self, prefix: &str, read: fn(&str) -> Option<E>) -> Result<E, Problem>
-    where
-        E: Default,
-    {
-        if self.0.is_empty() {
-            return Ok(E::default());
-        }
-        let name = self.0.to_ascii_uppercase();
-        let name = if name.starts_with(prefix) {
-            name
-        } else {
-            format!("{prefix}{name}")
-        };
-        read(&name).ok_or_else(|| {
-            let detail = "a parameter of the query is none of the names that are due there";
-            Problem::new(StatusCode::BAD_REQUEST, "ENUM", detail)
-        })
-    }
-}
-
 impl EventsQuery {
     /// The start of the stream; a client that comes back goes on where it was.
     pub(super) fn start(
@@ -98,18 +72,14 @@ impl EventsQuery {
         session: String,
         resumed: Option<Position>,
     ) -> Result<v1::SubscribeStart, Problem> {
-        let delivery = self
-            .delivery
-            .number("DELIVERY_", v1::Delivery::from_str_name)?;
-        let space = self
-            .control_space
-            .number("CONTROL_SPACE_", v1::ControlSpace::from_str_name)?;
+        let delivery = self.delivery.number("delivery", "Delivery")?;
+        let control_space = self.control_space.number("controlSpace", "ControlSpace")?;
         let mut start = v1::SubscribeStart {
             session,
             subscriber: self.subscriber.clone(),
-            delivery: delivery.into(),
+            delivery,
             from_sequence: self.from_sequence,
-            control_space: space.into(),
+            control_space,
             max_rate_hz: self.max_rate_hz,
             with_uncertainty: self.with_uncertainty,
             run: self.run,
@@ -119,7 +89,7 @@ impl EventsQuery {
         };
         // The newest sample is the same wherever the client was; only every frame has a place to go on.
         if let Some(position) = resumed
-            && delivery == v1::Delivery::EveryFrame
+            && start.delivery() == v1::Delivery::EveryFrame
         {
             start.run = position.run;
             start.from_sequence = position.sequence + 1;
@@ -212,26 +182,9 @@ mod tests {
     }
 
     #[test]
-    fn an_enum_is_named_in_full_or_in_short() {
-        for name in ["DELIVERY_EVERY_FRAME", "every_frame", "EVERY_FRAME"] {
-            let query = EventsQuery {
-                delivery: Word(name.into()),
-                ..EventsQuery::default()
-            };
-            let start = query.start("sessions/one".into(), None).unwrap();
-            assert_eq!(start.delivery(), v1::Delivery::EveryFrame);
-        }
-        let query = EventsQuery {
-            delivery: Word("all".into()),
-            ..EventsQuery::default()
-        };
-        assert!(query.start("sessions/one".into(), None).is_err());
-    }
-
-    #[test]
     fn who_comes_back_goes_on_behind_its_last_sample() {
         let query = EventsQuery {
-            delivery: Word("every_frame".into()),
+            delivery: "every_frame".into(),
             from_oldest: true,
             ..EventsQuery::default()
         };

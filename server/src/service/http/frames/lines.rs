@@ -18,10 +18,20 @@ use super::super::message::{too_large, too_slow};
 /// Time for a line that has begun to end.
 const LINE_DEADLINE: Duration = Duration::from_secs(10);
 
+/// A line, or why it is none.
+pub(super) struct Line {
+    /// From 1; empty lines count.
+    pub number: u64,
+    /// With its end.
+    pub text: Result<Bytes, Status>,
+}
+
 /// The lines of `body`. After an error there are no more.
 pub(super) struct Lines<B> {
     body: B,
     limit_bytes: usize,
+    /// Lines that were taken from what came.
+    n_taken: u64,
     /// What came and is no whole line yet.
     pending: BytesMut,
     /// How much of it holds no end of a line.
@@ -44,6 +54,7 @@ impl<B> Lines<B> {
         Self {
             body,
             limit_bytes,
+            n_taken: 0,
             pending: BytesMut::new(),
             n_searched: 0,
             deadline: None,
@@ -64,6 +75,7 @@ impl<B> Lines<B> {
                 None => self.pending.split(),
             };
             self.n_searched = 0;
+            self.n_taken += 1;
             self.deadline = None;
             if !line.trim_ascii().is_empty() {
                 return Some(line.freeze());
@@ -71,11 +83,13 @@ impl<B> Lines<B> {
         }
     }
 
-    fn fail(&mut self, status: Status) -> Poll<Option<Result<Bytes, Status>>> {
+    /// Ends with what is wrong with line `number`.
+    fn fail(&mut self, number: u64, status: Status) -> Poll<Option<Line>> {
         self.state = State::Over;
         self.pending = BytesMut::new();
         self.n_searched = 0;
-        Poll::Ready(Some(Err(status)))
+        let text = Err(status);
+        Poll::Ready(Some(Line { number, text }))
     }
 
     fn is_late(&mut self, cx: &mut Context<'_>) -> bool {
@@ -95,19 +109,22 @@ where
     B: Stream<Item = Result<Bytes, E>> + Unpin,
     E: std::fmt::Display,
 {
-    type Item = Result<Bytes, Status>;
+    type Item = Line;
 
     fn poll_next(self: Pin<&mut Self>, cx: &mut Context<'_>) -> Poll<Option<Self::Item>> {
         let this = self.get_mut();
         loop {
             if let Some(line) = this.take() {
+                let number = this.n_taken;
                 if line.len() > this.limit_bytes {
-                    return this.fail(too_large(this.limit_bytes));
+                    return this.fail(number, too_large(this.limit_bytes));
                 }
-                return Poll::Ready(Some(Ok(line)));
+                let text = Ok(line);
+                return Poll::Ready(Some(Line { number, text }));
             }
+            let begun = this.n_taken + 1;
             if this.pending.len() > this.limit_bytes {
-                return this.fail(too_large(this.limit_bytes));
+                return this.fail(begun, too_large(this.limit_bytes));
             }
             if this.state != State::Reading {
                 return Poll::Ready(None);
@@ -116,10 +133,10 @@ where
                 Poll::Ready(Some(Ok(bytes))) => this.pending.extend_from_slice(&bytes),
                 Poll::Ready(Some(Err(error))) => {
                     tracing::debug!(%error, "a body ended early");
-                    return this.fail(Status::cancelled("the body ended early"));
+                    return this.fail(begun, Status::cancelled("the body ended early"));
                 }
                 Poll::Ready(None) => this.state = State::Ended,
-                Poll::Pending if this.is_late(cx) => return this.fail(too_slow()),
+                Poll::Pending if this.is_late(cx) => return this.fail(begun, too_slow()),
                 Poll::Pending => return Poll::Pending,
             }
         }
@@ -141,12 +158,13 @@ mod tests {
         chunks.map(|it| Ok(Bytes::from_static(it))).collect()
     }
 
-    async fn all(chunks: Vec<Chunk>, limit_bytes: usize) -> Result<Vec<String>, Code> {
+    async fn all(chunks: Vec<Chunk>, limit_bytes: usize) -> Result<Vec<(u64, String)>, Code> {
         let mut lines = Lines::new(stream::iter(chunks), limit_bytes);
         let mut read = Vec::new();
-        while let Some(line) = lines.next().await {
-            let line = line.map_err(|it| it.code())?;
-            read.push(String::from_utf8(line.trim_ascii().to_vec()).unwrap());
+        while let Some(Line { number, text }) = lines.next().await {
+            let text = text.map_err(|it| it.code())?;
+            let text = String::from_utf8(text.trim_ascii().to_vec()).unwrap();
+            read.push((number, text));
         }
         Ok(read)
     }
@@ -156,7 +174,8 @@ mod tests {
         let text = "{\"a\":1}\r\n\n  \n{}\n[1,2,3]";
         for size in 1..=text.len() {
             let read = all(chunks(text, size), 64).await.unwrap();
-            assert_eq!(read, ["{\"a\":1}", "{}", "[1,2,3]"], "{size}");
+            let expected = [(1, "{\"a\":1}"), (4, "{}"), (5, "[1,2,3]")];
+            assert_eq!(read, expected.map(|(n, it)| (n, it.to_owned())), "{size}");
         }
     }
 
@@ -166,8 +185,8 @@ mod tests {
         assert_eq!(all(chunks(text, 3), 9).await, Err(Code::OutOfRange));
         assert_eq!(all(chunks(text, 3), 10).await.unwrap().len(), 1);
         let mut endless = Lines::new(stream::repeat_with(|| Chunk::Ok("abc".into())), 1_024);
-        let refused = endless.next().await.unwrap().unwrap_err();
-        assert_eq!(refused.code(), Code::OutOfRange);
+        let Line { number, text } = endless.next().await.unwrap();
+        assert_eq!((number, text.unwrap_err().code()), (1, Code::OutOfRange));
         assert!(endless.next().await.is_none());
     }
 
@@ -179,8 +198,8 @@ mod tests {
         });
         let began = Instant::now();
         let mut lines = Lines::new(Box::pin(drip), 1_024);
-        let refused = lines.next().await.unwrap().unwrap_err();
-        assert_eq!(refused.code(), Code::DeadlineExceeded);
+        let late = lines.next().await.unwrap().text.unwrap_err();
+        assert_eq!(late.code(), Code::DeadlineExceeded);
         assert!(
             began.elapsed() <= Duration::from_secs(12),
             "{:?}",

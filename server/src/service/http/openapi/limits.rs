@@ -1,9 +1,10 @@
 //! What the server asks of fields beyond their type: the same limits that `wire` enforces, as schemas say them.
 
+use frontalis_analysis::marker_analysis::objective::{LARGEST_BOUND, MAX_EXCLUSIVE_PAIRS};
 use frontalis_proto::v1;
 use serde_json::{Value, json};
 
-use crate::service::http::call::PathFields;
+use crate::service::http::call::BodyMessage;
 
 /// `actors/ID`.
 const ACTOR: &str = "^actors/[a-z0-9][a-z0-9_-]{0,62}$";
@@ -22,10 +23,14 @@ const DURATION: &str = concat!(
     r"|([1-9]|[1-9][0-9]|[1-9][0-9]{2}|[12][0-9]{3}|3[0-5][0-9]{2})(\.[0-9]{1,9})?",
     r"|3600(\.0{1,9})?)s$"
 );
+/// 0 to 1.
+const STRENGTH: &str = r"^(0(\.[0-9]{1,9})?|1(\.0{1,9})?)$";
+/// 0 to 2.
+const BOUND: &str = r"^([01](\.[0-9]{1,9})?|2(\.0{1,9})?)$";
 /// Paths of `SessionSettings`.
 const MASK: &str = concat!(
     r"^((settings\.)?(neutralFrames|allowExaggeration|smoothing|sparsity|robust|stabilizeHead|staleAfter",
-    r"|publisherTimeout|record|regionMode|plain|alignOnRequest|recordImages)(,|$))*$"
+    r"|publisherTimeout|record|regionMode|plain|alignOnRequest|recordImages|symmetry|bounds|exclusivePairs)(,|$))*$"
 );
 
 /// Fields that the path of the operation says, and its body therefore must not.
@@ -55,6 +60,14 @@ pub(super) fn required(message: &str) -> &'static [&'static str] {
     }
 }
 
+/// Most entries of a list.
+pub(super) fn max_items(message: &str, field: &str) -> Option<usize> {
+    match (message, field) {
+        ("SessionSettings", "exclusive_pairs") => Some(MAX_EXCLUSIVE_PAIRS),
+        _ => None,
+    }
+}
+
 /// The limit of a field, beside or in place of its type's schema.
 pub(super) fn of(message: &str, field: &str) -> Option<Value> {
     let limit = match (message, field) {
@@ -71,12 +84,13 @@ pub(super) fn of(message: &str, field: &str) -> Option<Value> {
             "maximum": 256,
             "pattern": "^([1-9][0-9]?|1[0-9]{2}|2[0-4][0-9]|25[0-6])$",
         }),
-        // Off, until this version can.
-        ("SessionSettings", "smoothing" | "sparsity") => {
-            json!({ "minimum": 0, "maximum": 0, "pattern": "^0$" })
+        ("SessionSettings", "smoothing" | "sparsity" | "symmetry") => {
+            json!({ "minimum": 0, "maximum": 1, "pattern": STRENGTH })
         }
-        ("SessionSettings", "robust" | "record" | "plain" | "record_images") => {
-            json!({ "enum": [false] })
+        // Off, until this version can.
+        ("SessionSettings", "record" | "record_images") => json!({ "enum": [false] }),
+        ("ControlBounds", "lower" | "upper") => {
+            json!({ "minimum": 0, "maximum": LARGEST_BOUND, "pattern": BOUND })
         }
         ("SessionSettings", "stale_after" | "publisher_timeout") => json!({ "pattern": DURATION }),
         _ => return None,

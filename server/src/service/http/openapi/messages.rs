@@ -2,15 +2,13 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use frontalis_proto::FILE_DESCRIPTOR_SET;
-use prost::Message as _;
 use prost_types::{
-    DescriptorProto, EnumDescriptorProto, FileDescriptorProto, FileDescriptorSet,
-    source_code_info::Location,
+    DescriptorProto, EnumDescriptorProto, FileDescriptorProto, source_code_info::Location,
 };
 use serde_json::Value;
 
-use super::schema::{self, bare};
+use super::schema;
+use crate::service::http::descriptors::{self, bare};
 
 /// Number of `FileDescriptorProto.message_type`.
 const MESSAGES: i32 = 4;
@@ -18,8 +16,6 @@ const MESSAGES: i32 = 4;
 const ENUMS: i32 = 5;
 /// Number of `DescriptorProto.field` and of `EnumDescriptorProto.value`.
 const MEMBERS: i32 = 2;
-/// The package whose messages these are.
-const PACKAGE: &str = "frontalis.v1";
 
 /// A message or an enum with its comments.
 pub(super) struct Described<T> {
@@ -40,14 +36,11 @@ pub(super) struct Messages {
 impl Messages {
     /// Reads the descriptors.
     pub fn of_the_protocol() -> Self {
-        let set = FileDescriptorSet::decode(FILE_DESCRIPTOR_SET)
-            .expect("invariant: the descriptors in the binary are those that the build made");
         let mut all = Self {
             messages: BTreeMap::new(),
             enums: BTreeMap::new(),
         };
-        let ours = |it: &&FileDescriptorProto| it.package() == PACKAGE;
-        set.file.iter().filter(ours).for_each(|it| all.add(it));
+        descriptors::files().for_each(|it| all.add(&it));
         all
     }
 

@@ -12,14 +12,6 @@ pub fn length_unit() -> Schema {
         .into()
 }
 
-/// A switch that this version cannot put on.
-pub fn not_yet() -> Schema {
-    ObjectBuilder::new()
-        .schema_type(Type::Boolean)
-        .enum_values(Some([false]))
-        .into()
-}
-
 /// A name for people.
 pub fn display_name() -> Schema {
     ObjectBuilder::new()

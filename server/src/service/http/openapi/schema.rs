@@ -1,7 +1,6 @@
 //! One message or enum as a JSON schema, in the protobuf JSON mapping.
 //!
-//! What is read may have numbers as text, enums as numbers, and null for what may be absent; what is written has one
-//! form only.
+//! What is read may have numbers as text, enums as numbers, and null for a default; what is written has one form only.
 
 use prost_types::{
     DescriptorProto, EnumDescriptorProto, EnumValueDescriptorProto, FieldDescriptorProto,
@@ -10,11 +9,7 @@ use prost_types::{
 use serde_json::{Map, Value, json};
 
 use super::{SCHEMAS, limits, messages::Described};
-
-/// The name of a message or enum of ours, without its package.
-pub(super) fn bare(type_name: &str) -> Option<&str> {
-    type_name.strip_prefix(".frontalis.v1.")
-}
+use crate::service::http::descriptors::bare;
 
 pub(super) fn message(message: &Described<DescriptorProto>, read: bool) -> Value {
     let name = message.descriptor.name();
@@ -65,7 +60,11 @@ fn field(message: &str, field: &FieldDescriptorProto, comment: &str, read: bool)
     }
     if field.label() == Label::Repeated {
         schema = json!({ "type": "array", "items": schema });
-    } else if read && may_be_null(field) {
+        if let Some(most) = limits::max_items(message, field.name()) {
+            schema["maxItems"] = json!(most);
+        }
+    }
+    if read && !limits::required(message).contains(&field.json_name()) {
         schema = json!({ "oneOf": [{ "type": "null" }, schema] });
     }
     describe(&mut schema, comment);
@@ -81,10 +80,6 @@ fn narrowed(mut schema: Value, limit: Value) -> Value {
         schema.extend(limit);
     }
     schema
-}
-
-fn may_be_null(field: &FieldDescriptorProto) -> bool {
-    field.proto3_optional() || field.r#type() == Type::Message
 }
 
 fn describe(schema: &mut Value, comment: &str) {

@@ -101,7 +101,10 @@ fn what_is_written_has_one_form_and_what_is_read_has_all() {
     let run = &schemas["SessionStatus"]["properties"]["run"];
     assert_eq!(run["type"], "string");
     let revision = &schemas["UpdateSessionRequest"]["properties"]["actorRevision"];
-    assert_eq!(revision["type"], json!(["integer", "string"]));
+    // null is the default, as in every field that may be left out.
+    let forms = &revision["oneOf"];
+    assert_eq!(forms[0]["type"], "null", "{revision}");
+    assert_eq!(forms[1]["type"], json!(["integer", "string"]));
     let update = schemas["UpdateSessionRequest"]["properties"].as_object();
     assert!(!update.unwrap().contains_key("name"));
 }

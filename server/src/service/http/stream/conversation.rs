@@ -11,7 +11,7 @@ use std::{
 };
 
 use bytes::Bytes;
-use futures::{SinkExt as _, Stream, StreamExt as _, channel::mpsc};
+use futures::{FutureExt as _, SinkExt as _, Stream, StreamExt as _, channel::mpsc};
 use serde::Serialize;
 use tokio::{
     io::{AsyncRead, AsyncReadExt as _, AsyncWrite, AsyncWriteExt as _},
@@ -33,10 +33,7 @@ use tokio_tungstenite::{
 use tonic::Status;
 
 use super::{
-    super::{
-        message::{Incoming, from_json, from_protobuf, write_json},
-        problem::Problem,
-    },
+    super::message::{Incoming, Taken, from_json, from_protobuf, write_json},
     closing,
     patience::{Metered, Patience, TICK, Verdict},
     subprotocol::Form,
@@ -53,6 +50,8 @@ pub(super) struct Topic {
     pub session: String,
     /// The path, for problems.
     pub instance: String,
+    /// How far the stream is with the peer's messages, for problems.
+    pub taken: Taken,
     /// How messages are written.
     pub form: Form,
     /// Largest message of the client, bytes.
@@ -138,7 +137,11 @@ where
             End::Peace => self.close(None, closing::in_peace()).await,
             End::Failed(status) => {
                 let frame = closing::of(&status);
-                let text = Problem::from(status).in_stream(&self.topic.instance);
+                let text = self
+                    .topic
+                    .taken
+                    .problem(status)
+                    .in_stream(&self.topic.instance);
                 self.close(Some(text), frame).await;
             }
         }
@@ -174,7 +177,10 @@ where
         }
         if self.is_writing {
             match self.socket.poll_flush_unpin(cx) {
-                Poll::Ready(Ok(())) => self.is_writing = false,
+                Poll::Ready(Ok(())) => {
+                    self.is_writing = false;
+                    self.patience.took();
+                }
                 Poll::Ready(Err(_gone)) => return Poll::Ready(Event::Gone),
                 Poll::Pending => {}
             }
@@ -193,7 +199,7 @@ where
             return Some(End::Failed(flood));
         }
         let read = match (message, self.topic.form) {
-            (Message::Text(text), Form::Json) => from_json(text.as_bytes()),
+            (Message::Text(text), Form::Json) => from_json(text.as_bytes(), 1),
             (Message::Binary(bytes), Form::Protobuf) => from_protobuf(bytes),
             (Message::Text(_) | Message::Binary(_), _) => Err(closing::other_form()),
             (Message::Close(_), _) => return Some(End::Goodbye),
@@ -263,7 +269,15 @@ where
             Verdict::Wait => None,
             Verdict::Ping => self.send(Message::Ping(Bytes::new())),
             Verdict::End(status) => Some(End::Failed(status)),
-            Verdict::Cut => Some(End::Gone),
+            Verdict::Blocked => Some(self.give_up()),
+        }
+    }
+
+    /// The stream may have last words, for a peer that reads again just now.
+    fn give_up(&mut self) -> End {
+        match self.responses.next().now_or_never() {
+            Some(Some(Err(status))) => End::Failed(status),
+            _ => End::Gone,
         }
     }
 

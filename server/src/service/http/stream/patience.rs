@@ -1,7 +1,8 @@
 //! How long a WebSocket's peer may keep silent, take for a message, or not read; and how often it may ping.
 //!
 //! BAD_INPUT E13 (no pong, ping flood), F4 and F5. A subscriber of the newest sample may stop reading for as long as it
-//! likes (CONTRACTS D-15): a peer that has vanished is found by its machine's silence, below this. Looked at once a second, so that a message costs no timer.
+//! likes (CONTRACTS D-15): a peer that has vanished is found by its machine's silence, below this. Looked at once a
+//! second, so that a message costs no timer.
 
 use std::{
     io,
@@ -18,7 +19,7 @@ use tokio_tungstenite::tungstenite::Message;
 use tonic::{Code, Status};
 
 use super::super::message::too_slow;
-use crate::service::grpc::status::refuse;
+use crate::service::grpc::{curves::MAX_PAUSE, status::refuse};
 
 /// How often to look.
 pub(super) const TICK: Duration = Duration::from_secs(1);
@@ -26,8 +27,10 @@ pub(super) const TICK: Duration = Duration::from_secs(1);
 const PING_EVERY: Duration = Duration::from_secs(10);
 /// A peer that says nothing for so long, not even pong, is gone.
 const SILENCE: Duration = Duration::from_secs(30);
-/// A peer that takes nothing for so long is gone.
-const BLOCKED: Duration = Duration::from_secs(30);
+/// The part of that which it has for a pong.
+const PONG_WITHIN: Duration = Duration::from_secs(20);
+/// A peer that takes nothing for so long is gone. By then a stream of every frame has given it up, and says so.
+const BLOCKED: Duration = MAX_PAUSE.saturating_add(TICK);
 /// Time for a message that has begun to end.
 const MESSAGE_DEADLINE: Duration = Duration::from_secs(10);
 /// Pings and pongs of a peer in any [`CONTROL_SPAN`].
@@ -44,14 +47,16 @@ pub(super) enum Verdict {
     Ping,
     /// Tell it why, and close.
     End(Status),
-    /// It would not read why.
-    Cut,
+    /// It takes nothing.
+    Blocked,
 }
 
 /// What is known of a peer's pace.
 pub(super) struct Patience {
     heard_at: Instant,
     pinged_at: Instant,
+    /// When the first ping went out that nothing was heard since.
+    asked_at: Option<Instant>,
     /// Bytes of whole messages, as far as they can be told apart.
     n_settled: u64,
     /// When the message that is under way was first seen.
@@ -68,6 +73,7 @@ impl Patience {
         Self {
             heard_at: now,
             pinged_at: now,
+            asked_at: None,
             n_settled: 0,
             begun_at: None,
             blocked_since: None,
@@ -89,7 +95,7 @@ impl Patience {
     /// `PING_FLOOD`.
     pub(super) fn hear(&mut self, message: &Message, n_read: u64) -> Result<(), Status> {
         let now = Instant::now();
-        self.heard_at = now;
+        self.heard(now);
         let (Message::Ping(data) | Message::Pong(data)) = message else {
             self.n_settled = n_read;
             self.begun_at = None;
@@ -109,32 +115,44 @@ impl Patience {
         Ok(())
     }
 
+    fn heard(&mut self, now: Instant) {
+        self.heard_at = now;
+        self.asked_at = None;
+    }
+
+    /// The peer took the message that was on its way.
+    pub(super) fn took(&mut self) {
+        self.blocked_since = None;
+    }
+
     /// Judges once a [`TICK`]. While the server itself does not read, or has nothing to write, nobody is late.
     pub(super) fn judge(&mut self, n_read: u64, is_reading: bool, is_writing: bool) -> Verdict {
         let now = Instant::now();
         let is_under_way = is_reading && n_read > self.n_settled;
         self.begun_at = is_under_way.then(|| self.begun_at.unwrap_or(now));
         self.blocked_since = is_writing.then(|| self.blocked_since.unwrap_or(now));
-        if !is_reading {
-            self.heard_at = now;
+        if !is_reading || self.may_pause {
+            self.heard(now);
         }
-        let longer = |since: Option<Instant>, limit| since.is_some_and(|it| now - it >= limit);
         if self.may_pause {
-            self.heard_at = now;
             self.blocked_since = None;
         }
+        let longer = |since: Option<Instant>, limit| since.is_some_and(|it| now - it >= limit);
         if longer(self.blocked_since, BLOCKED) {
-            return Verdict::Cut;
+            return Verdict::Blocked;
         }
         if longer(self.begun_at, MESSAGE_DEADLINE) {
             return Verdict::End(too_slow());
         }
-        if now - self.heard_at >= SILENCE {
+        // Behind what is not taken no ping comes through.
+        let is_asked = !is_writing && longer(self.asked_at, PONG_WITHIN);
+        if is_asked && now - self.heard_at >= SILENCE {
             let message = "no pong within 30 s";
             return Verdict::End(refuse(Code::DeadlineExceeded, "NO_PONG", message));
         }
         if !is_writing && now - self.pinged_at >= PING_EVERY {
             self.pinged_at = now;
+            self.asked_at.get_or_insert(now);
             return Verdict::Ping;
         }
         Verdict::Wait

@@ -1,11 +1,9 @@
-//! The files of the port's certificates: read within a limit, told apart by their content, complained about by name.
+//! The files of the port's certificates: read within a limit, complained about by name.
 
 use std::{
     fs::File,
-    hash::{BuildHasher as _, RandomState},
     io::{self, Read as _},
     path::{Path, PathBuf},
-    sync::LazyLock,
 };
 
 use rustls::pki_types::{
@@ -94,7 +92,7 @@ pub type Cause = Box<dyn std::error::Error + Send + Sync>;
 /// A file and what it holds.
 pub(super) struct Content {
     pub(super) path: PathBuf,
-    bytes: Vec<u8>,
+    pub(super) bytes: Vec<u8>,
 }
 
 /// All files of the configuration.
@@ -116,19 +114,6 @@ impl Files {
             client_crl: optional(&paths.client_crl)?,
             require_client_cert: paths.require_client_cert,
         })
-    }
-
-    /// Differs when the content does; never 0.
-    pub(super) fn fingerprint(&self) -> u64 {
-        static STATE: LazyLock<RandomState> = LazyLock::new(RandomState::new);
-        let bytes = |it: &Option<Content>| it.as_ref().map(|it| it.bytes.clone());
-        let all = (
-            &self.cert.bytes,
-            &self.key.bytes,
-            bytes(&self.client_ca),
-            bytes(&self.client_crl),
-        );
-        STATE.hash_one(all).max(1)
     }
 
     /// Names of hosts that the certificate vouches for, in small letters.

@@ -13,7 +13,7 @@ use rustls::{
 };
 use tokio::time::Instant;
 
-use super::Tls;
+use super::{Fingerprint, Tls};
 
 /// How long a judgement holds while the files stay the same: what it rests on may expire.
 const JUDGEMENT_LIFE: Duration = Duration::from_secs(5);
@@ -33,7 +33,7 @@ struct Shown {
 /// What was found, by which files, and when.
 #[derive(Clone, Copy)]
 struct Judgement {
-    fingerprint: u64,
+    fingerprint: Fingerprint,
     at: Instant,
     is_believed: bool,
 }
@@ -43,9 +43,9 @@ impl PeerCertificate {
     pub(super) fn of(tls: &Tls, connection: &ServerConnection) -> Option<Self> {
         let chain = connection.peer_certificates()?;
         chain.first()?;
-        // The files may be others than those of the handshake: 0 is the fingerprint of none.
+        // The files may be others than those of the handshake.
         let newest = Judgement {
-            fingerprint: 0,
+            fingerprint: Fingerprint::NONE,
             at: Instant::now(),
             is_believed: false,
         };

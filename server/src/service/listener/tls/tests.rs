@@ -8,20 +8,20 @@ use tempfile::TempDir;
 use super::*;
 
 /// A folder with a certificate for these names.
-struct Folder(TempDir);
+pub(in crate::service::listener) struct Folder(TempDir);
 
 impl Folder {
-    fn with(names: &[&str]) -> Self {
+    pub(in crate::service::listener) fn with(names: &[&str]) -> Self {
         let folder = Self(tempfile::tempdir().unwrap());
         folder.write_cert(&certified(names));
         folder
     }
 
-    fn path(&self, name: &str) -> String {
+    pub(in crate::service::listener) fn path(&self, name: &str) -> String {
         self.0.path().join(name).to_str().unwrap().to_owned()
     }
 
-    fn paths(&self) -> config::Tls {
+    pub(in crate::service::listener) fn paths(&self) -> config::Tls {
         config::Tls {
             cert: self.path("cert.pem"),
             key: self.path("key.pem"),
@@ -126,29 +126,31 @@ fn new_files_are_taken_when_they_fit_and_keep_the_old_ones_when_they_do_not() {
 
     let new = certified(&["new.example"]);
     fs::write(folder.path("cert.pem"), new.cert.pem()).unwrap();
-    let Look::Refused { fingerprint, error } = tls.look(None, Occasion::Routine) else {
+    let Look::Refused { what, error } = tls.look(None, Occasion::Routine) else {
         panic!("a certificate without its key was taken");
     };
     assert!(matches!(error, TlsError::Mismatch { .. }));
+    assert_eq!(what.changed_since(tls.current().fingerprint), "tls.cert");
     assert!(tls.vouches_for("old.example"));
     // It is complained about once, and again when somebody asks.
-    let refused = Some(fingerprint);
-    assert!(matches!(tls.look(refused, Occasion::Routine), Look::Same));
-    assert!(matches!(
-        tls.look(refused, Occasion::Asked),
-        Look::Refused { .. }
-    ));
+    let refused = Some(what);
+    let look = |occasion| tls.look(refused, occasion);
+    assert!(matches!(look(Occasion::Routine), Look::StillRefused));
+    assert!(matches!(look(Occasion::Asked), Look::Refused { .. }));
 
     folder.write_cert(&new);
-    assert!(matches!(tls.look(refused, Occasion::Routine), Look::New));
+    let Look::New { changed } = look(Occasion::Routine) else {
+        panic!("a certificate with its key was not taken");
+    };
+    assert_eq!(changed, "tls.cert tls.key");
     assert!(tls.vouches_for("new.example") && !tls.vouches_for("old.example"));
 
     fs::remove_file(folder.path("key.pem")).unwrap();
-    let Look::Refused { fingerprint, .. } = tls.look(None, Occasion::Routine) else {
+    let Look::Refused { what, .. } = tls.look(None, Occasion::Routine) else {
         panic!("a missing file was not noticed");
     };
     assert!(matches!(
-        tls.look(Some(fingerprint), Occasion::Routine),
-        Look::Same
+        tls.look(Some(what), Occasion::Routine),
+        Look::StillRefused
     ));
 }

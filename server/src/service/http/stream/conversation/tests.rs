@@ -1,4 +1,4 @@
-//! Row E13: peers that say nothing, too much, or half of something, on a paused clock.
+//! Rows E13, F4 and F5: peers that say nothing, too much, or half of something, or do not read, on a paused clock.
 
 use frontalis_proto::v1;
 use futures::stream;
@@ -10,6 +10,10 @@ use tokio::{
 use tokio_tungstenite::tungstenite::protocol::{Role, WebSocketConfig};
 
 use super::*;
+use crate::service::grpc::{
+    curves::MAX_PAUSE,
+    stage::{Stage, peer},
+};
 
 const LIMIT_BYTES: usize = 1_024;
 
@@ -21,6 +25,18 @@ fn silent() -> (JoinHandle<()>, DuplexStream) {
 }
 
 fn talk(
+    responses: Responses<v1::SubscribeResponse>,
+    n_bytes: usize,
+) -> (JoinHandle<()>, DuplexStream) {
+    // As the contract's stream does: requests are read, and a broken one ends it.
+    let (inbox, requests) = mpsc::channel::<Result<v1::SubscribeRequest, Status>>(0);
+    let broken = requests.filter_map(async |it| it.err().map(Answer::Err));
+    let responses = stream::select(broken.chain(stream::pending()), responses);
+    talk_to(inbox, Box::pin(responses), n_bytes)
+}
+
+fn talk_to(
+    inbox: mpsc::Sender<Result<v1::SubscribeRequest, Status>>,
     responses: Responses<v1::SubscribeResponse>,
     n_bytes: usize,
 ) -> (JoinHandle<()>, DuplexStream) {
@@ -36,15 +52,12 @@ fn talk(
         let topic = Topic {
             session: "sessions/one".into(),
             instance: "/here".into(),
+            taken: Taken::none("message"),
             form: Form::Json,
             limit_bytes: LIMIT_BYTES,
             finishes: false,
         };
-        // As the contract's stream does: requests are read, and a broken one ends it.
-        let (inbox, requests) = mpsc::channel::<Result<v1::SubscribeRequest, Status>>(0);
-        let broken = requests.filter_map(async |it| it.err().map(Answer::Err));
-        let responses = stream::select(broken.chain(stream::pending()), responses);
-        let conversation = Conversation::new(topic, socket, inbox, Box::pin(responses));
+        let conversation = Conversation::new(topic, socket, inbox, responses);
         conversation.run().await;
     });
     (talking, client)
@@ -164,8 +177,51 @@ async fn f4_a_peer_that_talks_and_does_not_read_is_cut_after_thirty_seconds() {
     assert!((30..=34).contains(&elapsed.as_secs()), "{elapsed:?}");
 }
 
+/// A text message that is not masked, and a start of every frame.
+fn start_of_every_frame() -> Vec<u8> {
+    let start = br#"{"start":{"delivery":"DELIVERY_EVERY_FRAME","fromOldest":true}}"#;
+    let length = 0x80 | u8::try_from(start.len()).unwrap();
+    [&[0x81, length, 0, 0, 0, 0][..], start].concat()
+}
+
 #[tokio::test(start_paused = true)]
-async fn d15_a_subscriber_of_the_newest_sample_may_stop_reading_for_any_time() {
+async fn f4_a_subscriber_of_every_frame_that_takes_nothing_for_thirty_seconds_loses_its_place() {
+    let stage = Stage::new().await;
+    let (inbox, requests) = mpsc::channel(0);
+    let responses = stage.curves.subscription(requests, peer());
+    let (talking, mut io) = talk_to(inbox, responses, 512);
+    io.write_all(&start_of_every_frame()).await.unwrap();
+    let mut publisher = stage.publisher("stage").await;
+    publisher.publish(stage.frames(1..=100)).await;
+    let n_subscribers = || stage.session.status().subscribers.len();
+    sleep(MAX_PAUSE.saturating_sub(TICK)).await;
+    assert_eq!(n_subscribers(), 1);
+    sleep(TICK).await;
+    assert_eq!(n_subscribers(), 0, "its place is not free");
+    // It reads again while the last words are said.
+    sleep(TICK * 2).await;
+    assert!(!talking.is_finished());
+    let lagged = (1013, "SUBSCRIBER_LAGGED".to_owned());
+    assert_eq!(last_words(io).await, lagged);
+    talking.await.unwrap();
+}
+
+#[tokio::test(start_paused = true)]
+async fn a_peer_that_reads_slowly_is_not_cut() {
+    let endless = stream::repeat_with(|| Ok(v1::SubscribeResponse::default()));
+    let (talking, mut io) = talk(Box::pin(endless), 16);
+    io.write_all(&start_of_every_frame()).await.unwrap();
+    for _ in 0..60 {
+        // Two messages.
+        io.read_exact(&mut [0; 8]).await.unwrap();
+        sleep(Duration::from_secs(5)).await;
+    }
+    assert!(!talking.is_finished());
+}
+
+/// CONTRACTS D-15.
+#[tokio::test(start_paused = true)]
+async fn a_subscriber_of_the_newest_sample_may_stop_reading_for_any_time() {
     for (delivery, may_pause) in [("DELIVERY_LATEST", true), ("DELIVERY_EVERY_FRAME", false)] {
         for responses in [
             stream::pending().boxed(),
