@@ -56,6 +56,34 @@ pub fn matrix_vector_nanos() -> f64 {
     })
 }
 
+/// What a frame of the plain problem, regions split, cannot do without: Dᵀd over the 11 markers × 6 muscles and 16 × 10 of
+/// the two regions, and one 16 × 16 product. The sums of all columns run side by side.
+pub fn projection_and_product_nanos() -> f64 {
+    fn by_rows<const W: usize>(rows: &[[f64; W]], d: &[f64]) -> [f64; W] {
+        let mut sums = [0.0; W];
+        for (row, d) in rows.iter().zip(d) {
+            for (sum, entry) in sums.iter_mut().zip(row) {
+                *sum += entry * d;
+            }
+        }
+        sums
+    }
+    fn filled<const W: usize>(n: usize) -> Vec<[f64; W]> {
+        (0..n)
+            .map(|i| std::array::from_fn(|k| (i * W + k) as f64 * 1e-3))
+            .collect()
+    }
+    let (upper, lower, square) = (filled::<6>(33), filled::<10>(48), filled::<16>(16));
+    let d: Vec<f64> = (0..81).map(f64::from).collect();
+    let x: Vec<f64> = (0..16).map(f64::from).collect();
+    median_nanos(|| {
+        let d = black_box(&d);
+        black_box(by_rows(&upper, &d[..33]));
+        black_box(by_rows(&lower, &d[33..]));
+        black_box(by_rows(&square, black_box(&x)));
+    })
+}
+
 /// Prints one row: microseconds of CPU a call, and how many bare products that is.
 pub fn print_row(name: &str, nanos: f64, product_nanos: f64) {
     println!(

@@ -1,10 +1,13 @@
-//! CPU time of a whole frame of 27 markers and 16 muscles, one thread: alignment, displacement, contraction, marker error.
+//! CPU time of a whole frame, one thread: alignment, displacement, contraction, marker error.
 
 use std::{hint::black_box, sync::Arc};
 
 use frontalis_analysis::{
     analyzer::{MarkerAnalyzer, MarkerSettings, RegionMode},
-    face::marker::MarkerFrame,
+    face::{
+        actor::{Actor, RankPolicy},
+        marker::MarkerFrame,
+    },
     marker_analysis::{alignment::Alignment, contraction::ContractionSolver, neutral},
     space::LengthUnit,
     synthesis::reference_face,
@@ -13,76 +16,95 @@ use frontalis_analysis::{
 mod cpu_clock;
 #[path = "../tests/support/performance.rs"]
 mod performance;
+#[path = "../tests/support/production_face.rs"]
+mod production_face;
 
 use performance::{NEUTRAL_FRAMES, Performance, Stage};
 
 fn main() {
     let product = cpu_clock::matrix_vector_nanos();
     cpu_clock::print_row("bare matrix-vector product, 81 x 16", product, product);
+    let floor = cpu_clock::projection_and_product_nanos();
+    cpu_clock::print_row(
+        "projection by region and one 16 x 16 product",
+        floor,
+        product,
+    );
+    let split = solver_nanos(&reference_face(), &plain(RegionMode::Split, false));
+    cpu_clock::print_row("27 x 16 plain, regions split, fixed head", split, product);
+    println!("{:>74.2} x projection and product", split / floor);
     for (mode, stabilize_head, name) in [
-        (
-            RegionMode::Split,
-            false,
-            "plain QP, regions split, fixed head",
-        ),
         (
             RegionMode::Joint,
             false,
-            "plain QP, regions joint, fixed head",
+            "27 x 16 plain, regions joint, fixed head",
         ),
-        (RegionMode::Joint, true, "joint with head pose (default)"),
+        (
+            RegionMode::Joint,
+            true,
+            "27 x 16 plain, joint with head pose",
+        ),
         (
             RegionMode::Split,
             true,
-            "regions split, pose from the joint problem",
+            "27 x 16 plain, split, pose from the joint problem",
         ),
     ] {
-        let settings = MarkerSettings {
-            region_mode: mode,
-            stabilize_head,
-            ..MarkerSettings::default()
-        };
-        cpu_clock::print_row(name, solver_nanos(&settings), product);
+        let nanos = solver_nanos(&reference_face(), &plain(mode, stabilize_head));
+        cpu_clock::print_row(name, nanos, product);
     }
+    for (n, m) in [(60, 52), (300, 150)] {
+        let actor = production_face::actor(n, m, 3);
+        for (stabilize_head, head) in [(false, "fixed head"), (true, "head pose")] {
+            let nanos = solver_nanos(&actor, &plain(RegionMode::Joint, stabilize_head));
+            let name = format!("{n} x {m} plain, joint, {head}");
+            cpu_clock::print_row(&name, nanos, product);
+        }
+    }
+    let nanos = solver_nanos(&reference_face(), &MarkerSettings::default());
+    cpu_clock::print_row("27 x 16 default", nanos, product);
     let whole = analyzer_nanos();
     cpu_clock::print_row("default, with its sample", whole, product);
     let alignment = alignment_nanos();
     cpu_clock::print_row("alignment of 15 neutral frames, once", alignment, product);
 }
 
-/// A performance with noise, so that every frame has work to do.
-fn performance(
-    moving_head: bool,
-) -> (
-    Arc<frontalis_analysis::face::actor::Actor>,
-    Vec<MarkerFrame>,
-) {
+/// The reference face without its head-fixed markers.
+fn reference_face() -> Actor {
     let mut parts = reference_face::actor_parts();
     parts.markers.retain(|(marker, _)| !marker.head_fixed);
-    let (actor, _) = frontalis_analysis::face::actor::Actor::new(
-        parts,
-        frontalis_analysis::face::actor::RankPolicy::Refuse,
-    )
-    .expect("the reference face is an actor");
+    let (actor, _) = Actor::new(parts, RankPolicy::Refuse).expect("the reference face is an actor");
+    actor
+}
+
+fn plain(region_mode: RegionMode, stabilize_head: bool) -> MarkerSettings {
+    MarkerSettings {
+        region_mode,
+        stabilize_head,
+        ..MarkerSettings::plain()
+    }
+}
+
+/// A performance with noise, so that every frame has work to do.
+fn performance(actor: &Actor, moving_head: bool) -> Vec<MarkerFrame> {
     let stage = Stage {
         moving_head,
         noise_cm: 0.02,
         ..Stage::STILL
     };
-    let frames = Performance::of(&actor, stage).frames;
-    (Arc::new(actor), frames)
+    Performance::of(actor, stage).frames
 }
 
-fn solver_nanos(settings: &MarkerSettings) -> f64 {
-    let (actor, frames) = performance(settings.stabilize_head);
+fn solver_nanos(actor: &Actor, settings: &MarkerSettings) -> f64 {
+    let frames = performance(actor, settings.stabilize_head);
     let neutral_frames: Vec<_> = frames[..NEUTRAL_FRAMES]
         .iter()
         .map(|it| it.positions.as_slice())
         .collect();
     let neutral = neutral::average(&neutral_frames);
-    let alignment = Alignment::find(&actor, &neutral, LengthUnit::Centimeter)
+    let alignment = Alignment::find(actor, &neutral, LengthUnit::Centimeter)
         .expect("the performance starts neutral");
-    let mut solver = ContractionSolver::new(&actor, &alignment, settings, 60.0);
+    let mut solver = ContractionSolver::new(actor, &alignment, settings, 60.0);
     let pass = cpu_clock::median_nanos(|| {
         for frame in &frames {
             solver.solve(black_box(&frame.positions));
@@ -93,7 +115,8 @@ fn solver_nanos(settings: &MarkerSettings) -> f64 {
 }
 
 fn analyzer_nanos() -> f64 {
-    let (actor, frames) = performance(true);
+    let actor = Arc::new(reference_face());
+    let frames = performance(&actor, true);
     let mut samples = Vec::with_capacity(2 * NEUTRAL_FRAMES);
     let unit = LengthUnit::Centimeter;
     let mut analyzer = MarkerAnalyzer::new(actor, MarkerSettings::default(), unit, 60.0);
@@ -111,7 +134,8 @@ fn analyzer_nanos() -> f64 {
 
 /// Aligning the reference face once: registration of the neutral frames, projection, similarity.
 fn alignment_nanos() -> f64 {
-    let (actor, frames) = performance(true);
+    let actor = reference_face();
+    let frames = performance(&actor, true);
     let positions: Vec<_> = frames[..15]
         .iter()
         .map(|it| it.positions.as_slice())

@@ -14,5 +14,6 @@ mod noise;
 pub mod objective;
 mod plain_uncertainty;
 pub mod range;
+mod reproduction;
 pub mod settings;
 mod still_problem;

@@ -5,5 +5,8 @@ pub(crate) mod dot;
 pub mod factor;
 pub mod inverse;
 pub mod lanes;
+mod pivots;
 pub mod posterior;
+pub(crate) mod projection;
 pub mod similarity_fit;
+pub mod standing_qp;

@@ -18,6 +18,7 @@ use super::{
     objective::Objective,
     plain_uncertainty::{PlainFrame, PlainUncertainty},
     range::MuscleRange,
+    reproduction::Reproduction,
     settings::{MarkerSettings, RegionMode},
     still_problem::{StillProblem, fix},
 };
@@ -89,7 +90,9 @@ pub struct ContractionSolver {
     visible: Vec<bool>,
     aligned: Vec<Vector3<f64>>,
     stabilized: Vec<Vector3<f64>>,
-    reproduced: Vec<Vector3<f64>>,
+    reproduction: Reproduction,
+    /// |observed − reproduced| of every marker, visible or not, centimeters.
+    errors: Vec<f64>,
 }
 
 impl ContractionSolver {
@@ -130,7 +133,8 @@ impl ContractionSolver {
             visible: vec![false; n],
             aligned: vec![Vector3::zeros(); n],
             stabilized: vec![Vector3::zeros(); n],
-            reproduced: vec![Vector3::zeros(); n],
+            reproduction: Reproduction::new(&model),
+            errors: vec![0.0; n],
             model,
         }
     }
@@ -200,9 +204,10 @@ impl ContractionSolver {
 
     /// Moves the visible markers into model space.
     fn align(&mut self, positions: &[Option<PerformancePoint>]) {
-        for (j, &marker) in self.model.markers.iter().enumerate() {
-            self.visible[j] = positions[marker].is_some();
-            self.aligned[j] = positions[marker].map_or(Vector3::zeros(), |it| {
+        let places = self.visible.iter_mut().zip(&mut self.aligned);
+        for (&marker, (visible, aligned)) in self.model.markers.iter().zip(places) {
+            *visible = positions[marker].is_some();
+            *aligned = positions[marker].map_or(Vector3::zeros(), |it| {
                 self.linear_part * it.0.coords + self.translation_cm
             });
         }
@@ -233,8 +238,9 @@ impl ContractionSolver {
     }
 
     fn solve_visible(&mut self, evidence: &Evidence) {
-        self.scale_jump = evidence.scale_jump(&self.aligned);
-        if self.scale_jump.is_some() || evidence.is_degenerate(&self.aligned) {
+        let shape = evidence.shape(&self.aligned);
+        self.scale_jump = shape.scale_jump();
+        if self.scale_jump.is_some() || shape.is_degenerate() {
             return self.hold_all(HeldReason::DegeneratePose);
         }
         let solved = if self.estimated.is_some() {
@@ -343,11 +349,16 @@ impl ContractionSolver {
 
     /// Fits the head's motion anew where the last one is too old to start from, or the head has jumped away from it.
     fn start_motion(&mut self, evidence: &Evidence) -> bool {
-        self.model.reproduce(&self.x, &mut self.reproduced);
+        self.reproduction.of(&self.model, &self.x);
         if self.pose_is_recent() && !self.head_jumped(evidence) {
             return true;
         }
-        match Stabilizer::fitted(&self.model, evidence, &self.aligned, &self.reproduced) {
+        match Stabilizer::fitted(
+            &self.model,
+            evidence,
+            &self.aligned,
+            self.reproduction.positions(),
+        ) {
             Some(motion) => {
                 self.motion = motion;
                 true
@@ -359,7 +370,7 @@ impl ContractionSolver {
     /// Whether most markers are further from where the last pose puts them than a face can move in a frame.
     fn head_jumped(&self, evidence: &Evidence) -> bool {
         let is_far = |j: &&usize| {
-            let expected = self.reproduced[**j];
+            let expected = self.reproduction.at(**j);
             let distance = self.motion.apply(&self.aligned[**j]) - expected;
             distance.norm_squared() > HEAD_JUMP_CM * HEAD_JUMP_CM
         };
@@ -386,15 +397,24 @@ impl ContractionSolver {
 
     /// Per-frame marker error of each region (Choe & Ko 2001, section 5).
     fn measure_errors(&mut self, evidence: &Evidence) {
-        self.model.reproduce(&self.x, &mut self.reproduced);
+        self.reproduction.of(&self.model, &self.x);
+        let pairs = self.stabilized.iter().zip(self.reproduction.positions());
+        for (error, (observed, reproduced)) in self.errors.iter_mut().zip(pairs) {
+            *error = (observed - Vector3::from(*reproduced)).norm_squared();
+        }
+        // In a loop of their own, so that two roots are taken at once.
+        for error in &mut self.errors {
+            *error = error.sqrt();
+        }
         for (index, region) in self.regions.iter_mut().enumerate() {
             if region.held.is_some() {
                 continue;
             }
             let own = self.model.own_markers[index].clone();
+            let errors = evidence.visible[own.clone()].iter().zip(&self.errors[own]);
             let mut sum = 0.0;
-            for j in own.filter(|&j| evidence.visible[j]) {
-                sum += (self.stabilized[j] - self.reproduced[j]).norm();
+            for (visible, error) in errors {
+                sum += if *visible { *error } else { 0.0 };
             }
             region.marker_error_cm = sum / region.visible.max(1) as f64;
         }
@@ -438,7 +458,7 @@ impl ContractionSolver {
                 model: &self.model,
                 evidence,
                 stabilized: &self.stabilized,
-                reproduced: &self.reproduced,
+                reproduction: &self.reproduction,
                 x: &self.x,
                 boxes: &self.boxes,
                 mode: self.region_mode,
@@ -550,7 +570,7 @@ impl ContractionSolver {
             (
                 self.model.markers[j],
                 self.stabilized[j],
-                self.reproduced[j],
+                self.reproduction.at(j),
             )
         })
     }

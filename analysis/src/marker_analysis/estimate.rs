@@ -19,6 +19,7 @@ use super::{
     marker_model::MarkerModel,
     noise::{Left, Noise},
     objective::{Objective, USUAL_STRENGTH},
+    reproduction::Reproduction,
 };
 use crate::{
     face::muscle::MuscleSet,
@@ -76,7 +77,7 @@ pub(super) struct Estimator {
     residuals: Vec<Vector3<f64>>,
     squares: Vec<f64>,
     sorted: Vec<f64>,
-    reproduced: Vec<Vector3<f64>>,
+    reproduction: Reproduction,
     swaps: Vec<[usize; 2]>,
     standard_errors: Vec<f64>,
 }
@@ -133,7 +134,7 @@ impl Estimator {
             residuals: vec![Vector3::zeros(); n],
             squares: vec![0.0; n],
             sorted: Vec::with_capacity(n),
-            reproduced: vec![Vector3::zeros(); n],
+            reproduction: Reproduction::new(model),
             swaps: Vec::with_capacity(swaps::MAX_SWAPS),
             standard_errors: vec![UNKNOWN; m],
             qp,
@@ -242,7 +243,7 @@ impl Estimator {
         let used = &frame.evidence.used;
         let scatter_cm = weights::scatter_cm(used, &self.squares, &mut self.sorted);
         let sigma_cm = self.noise.sigma_cm().max(scatter_cm);
-        let expected = &self.reproduced;
+        let expected = self.reproduction.positions();
         swaps::find(used, frame.stabilized, expected, sigma_cm, &mut self.swaps);
         for &[a, b] in &self.swaps {
             frame.aligned.swap(a, b);
@@ -254,14 +255,14 @@ impl Estimator {
 
     /// Moves the markers by the present motion and measures how far each is from where x puts it.
     fn measure(&mut self, frame: &mut Frame<'_>, motion: &Stabilizer, x: &[f64]) {
-        frame.model.reproduce(x, &mut self.reproduced);
+        self.reproduction.of(frame.model, x);
         for &j in &frame.evidence.used {
             frame.stabilized[j] = if self.has_motion {
                 motion.apply(&frame.aligned[j])
             } else {
                 frame.aligned[j]
             };
-            self.residuals[j] = frame.stabilized[j] - self.reproduced[j];
+            self.residuals[j] = frame.stabilized[j] - self.reproduction.at(j);
             self.squares[j] = self.residuals[j].norm_squared();
         }
     }

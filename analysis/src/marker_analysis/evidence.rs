@@ -65,6 +65,8 @@ pub(super) struct Evidence {
     rest_arms: Vec<Vector3<f64>>,
     /// Determinant of the scatter of the used neutral markers; 0 where they are flat.
     rest_volume: f64,
+    /// Their squared distances from their mean, summed.
+    rest_spread: f64,
     mode: RegionMode,
     /// `Σ DⱼᵀDⱼ` over all markers.
     whole_gram: Vec<f64>,
@@ -89,6 +91,7 @@ impl Evidence {
             displacement_sums: vec![Vector3::zeros(); m],
             rest_arms: vec![Vector3::zeros(); n],
             rest_volume: 0.0,
+            rest_spread: 0.0,
             whole_gram: gram,
         }
     }
@@ -107,48 +110,64 @@ impl Evidence {
         true
     }
 
-    /// How many times larger than the neutral face the markers at `positions` are, when that is no face's doing: the unit of the
-    /// capture has changed.
-    ///
-    /// What has not the shape of the neutral face at any size says nothing about its size.
-    pub fn scale_jump(&self, positions: &[Vector3<f64>]) -> Option<f64> {
-        let n = self.used.len() as f64;
-        let mean = self
+    /// The markers at `positions` beside the neutral face. Markers that are not used may stand anywhere.
+    pub fn shape(&self, positions: &[Vector3<f64>]) -> Shape {
+        let n = self.used.len().max(1) as f64;
+        let origin = self
             .used
-            .iter()
-            .map(|&j| positions[j])
-            .sum::<Vector3<f64>>()
-            / n;
-        let (mut seen, mut rest) = (0.0, 0.0);
+            .first()
+            .map_or(Vector3::zeros(), |&j| positions[j]);
+        let (mut sum, mut spread) = (Vector3::zeros(), 0.0);
         let mut covariance = Matrix3::zeros();
         for &j in &self.used {
-            let arm = positions[j] - mean;
-            seen += arm.norm_squared();
-            rest += self.rest_arms[j].norm_squared();
-            covariance += self.rest_arms[j] * arm.transpose();
+            let position = positions[j] - origin;
+            sum += position;
+            spread += position.norm_squared();
+            // The arms sum to 0: the mean of the positions needs not be taken out.
+            covariance += self.rest_arms[j] * position.transpose();
         }
-        let ratio = (seen / rest).sqrt();
-        let is_face = covariance.determinant() > LIKE_A_FACE * self.rest_volume * ratio.powi(3);
-        let is_jump = is_face && self.rest_volume > 0.0 && !FACE_SIZES.contains(&ratio);
-        is_jump.then_some(ratio)
+        Shape {
+            volume: covariance.determinant(),
+            rest_volume: self.rest_volume,
+            size: ((spread - sum.norm_squared() / n) / self.rest_spread).sqrt(),
+        }
     }
 
     /// Whether neither region can be solved.
     pub fn is_held(&self) -> bool {
         self.regions.iter().all(|it| it.held.is_some())
     }
+}
 
-    /// Whether markers at `positions` lie on a point, a line or a plane, or are a mirror image: no proper pose then fits.
+/// What the markers of one frame show of the face, before its motion is known.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Shape {
+    /// Determinant of the covariance with the neutral markers.
+    volume: f64,
+    /// The same of the neutral markers with themselves; 0 where they are flat.
+    rest_volume: f64,
+    /// Root of the ratio of the scatters.
+    size: f64,
+}
+
+impl Shape {
+    /// How many times larger than the neutral face the markers are, when that is no face's doing: the unit of the capture has
+    /// changed.
+    ///
+    /// What has not the shape of the neutral face at any size says nothing about its size.
+    pub fn scale_jump(&self) -> Option<f64> {
+        let is_face = self.volume > LIKE_A_FACE * self.rest_volume * self.size.powi(3);
+        let is_jump = is_face && self.rest_volume > 0.0 && !FACE_SIZES.contains(&self.size);
+        is_jump.then_some(self.size)
+    }
+
+    /// Whether the markers lie on a point, a line or a plane, or are a mirror image: no proper pose then fits.
     ///
     /// The determinant of the covariance with the neutral markers is that of a rotation times the neutral volume;
     /// expressions change it by a fraction, flat and mirrored sets make it vanish or turn its sign.
-    pub fn is_degenerate(&self, positions: &[Vector3<f64>]) -> bool {
-        let mut covariance = Matrix3::zeros();
-        for &j in &self.used {
-            covariance += self.rest_arms[j] * positions[j].transpose();
-        }
-        let volume = covariance.determinant();
-        self.rest_volume <= 0.0 || volume.is_nan() || volume < LEAST_VOLUME_SHARE * self.rest_volume
+    pub fn is_degenerate(&self) -> bool {
+        let least = LEAST_VOLUME_SHARE * self.rest_volume;
+        self.rest_volume <= 0.0 || self.volume.is_nan() || self.volume < least
     }
 }
 
@@ -231,8 +250,10 @@ impl Evidence {
 
     fn find_rest(&mut self, model: &MarkerModel) {
         let (mean, volume) = rest_volume(model, &self.used);
-        for (arm, rest) in self.rest_arms.iter_mut().zip(&model.rest) {
-            *arm = rest - mean;
+        self.rest_spread = 0.0;
+        for &j in &self.used {
+            self.rest_arms[j] = model.rest[j] - mean;
+            self.rest_spread += self.rest_arms[j].norm_squared();
         }
         self.rest_volume = volume;
     }

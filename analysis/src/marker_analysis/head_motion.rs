@@ -64,12 +64,13 @@ impl Stabilizer {
         .inverse()
     }
 
-    /// The best rigid fit of the used markers to where `x` would put them, trusting those most that muscles move least.
+    /// The best rigid fit of the used markers to where they are `expected`, trusting those
+    /// most that muscles move least.
     pub fn fitted(
         model: &MarkerModel,
         evidence: &Evidence,
         aligned: &[Vector3<f64>],
-        expected: &[Vector3<f64>],
+        expected: &[[f64; 3]],
     ) -> Option<Self> {
         let pairs = evidence.used.iter().map(|&j| {
             let noise = FIT_MOBILITY_SHARE * model.mobility(j);

@@ -10,7 +10,7 @@ use nalgebra::Vector3;
 use crate::{
     face::{actor::Actor, basis::MarkerBasis, region::FaceRegion},
     marker_analysis::alignment::Alignment,
-    numeric::dot::dot,
+    numeric::{lanes::LANES, projection::support},
 };
 
 #[derive(Clone, Debug)]
@@ -31,7 +31,7 @@ pub(super) struct MarkerModel {
     pub rows: Vec<f64>,
     /// D by columns: entry `muscle * 3 * n_markers + 3 * marker + axis`, centimeters.
     pub columns: Vec<f64>,
-    /// The coordinates that each muscle moves: all others of its column are 0.
+    /// The coordinates that each muscle moves: all others of its column are 0. Widened to whole chunks of the loops.
     pub support: Vec<Range<usize>>,
     /// The muscles that move each marker: all others of its rows are 0.
     pub marker_support: Vec<Range<usize>>,
@@ -86,7 +86,7 @@ impl MarkerModel {
 
     fn find_supports(&mut self) {
         self.support = (0..self.n_muscles())
-            .map(|muscle| support(self.column(muscle)))
+            .map(|muscle| widened(&support(self.column(muscle)), 3 * self.n_markers()))
             .collect();
         self.marker_support = (0..self.n_markers())
             .map(|marker| self.muscles_that_move(marker))
@@ -178,17 +178,6 @@ impl MarkerModel {
         }
     }
 
-    /// p = p₀ + D x at every marker.
-    pub fn reproduce(&self, x: &[f64], reproduced: &mut [Vector3<f64>]) {
-        for (j, (to, rest)) in reproduced.iter_mut().zip(&self.rest).enumerate() {
-            let support = self.marker_support[j].clone();
-            let x = &x[support.clone()];
-            *to = Vector3::from_fn(|axis, _| {
-                rest[axis] + dot(&self.row(j, axis)[support.clone()], x)
-            });
-        }
-    }
-
     /// Mobility of a marker: √Σᵢ |dᵢⱼ|², centimeters.
     pub fn mobility(&self, marker: usize) -> f64 {
         let squared: f64 = (0..3)
@@ -199,12 +188,11 @@ impl MarkerModel {
     }
 }
 
-/// From the first to the last entry that is not 0.
-fn support(column: &[f64]) -> Range<usize> {
-    let moves = |it: &f64| *it != 0.0;
-    let start = column.iter().position(moves).unwrap_or(0);
-    let end = column.iter().rposition(moves).map_or(0, |it| it + 1);
-    start..end
+/// The chunks of `0..n` that hold `range`. All of them start where chunks of others do: a processor waits when it reads what
+/// is half of one entry and half of the next of those just written.
+fn widened(range: &Range<usize>, n: usize) -> Range<usize> {
+    let end = range.end.next_multiple_of(LANES).min(n);
+    range.start / LANES * LANES..end
 }
 
 /// The kept items sorted by region (`None` last), with the range of each region.

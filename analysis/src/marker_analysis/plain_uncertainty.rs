@@ -9,6 +9,7 @@ use super::{
     head_motion::RIDGE,
     marker_model::MarkerModel,
     noise::{Left, Noise},
+    reproduction::Reproduction,
     settings::RegionMode,
 };
 use crate::numeric::{box_qp::BoxQp, posterior::Posterior};
@@ -38,7 +39,7 @@ pub(super) struct PlainFrame<'a> {
     pub model: &'a MarkerModel,
     pub evidence: &'a Evidence,
     pub stabilized: &'a [Vector3<f64>],
-    pub reproduced: &'a [Vector3<f64>],
+    pub reproduction: &'a Reproduction,
     pub x: &'a [f64],
     pub boxes: &'a [[f64; 2]],
     pub mode: RegionMode,
@@ -78,7 +79,7 @@ impl PlainUncertainty {
     /// Takes in one frame.
     pub fn observe(&mut self, frame: &PlainFrame<'_>) {
         for &j in &frame.evidence.used {
-            self.residuals[j] = frame.stabilized[j] - frame.reproduced[j];
+            self.residuals[j] = frame.stabilized[j] - frame.reproduction.at(j);
         }
         let is_free =
             |i: &usize| frame.boxes[*i][0] < frame.x[*i] && frame.x[*i] < frame.boxes[*i][1];

@@ -13,22 +13,24 @@ use super::{
     marker_model::MarkerModel,
     settings::RegionMode,
 };
-use crate::numeric::{box_qp::BoxQp, dot::dot};
+use crate::numeric::{box_qp::BoxQp, projection::Projection, standing_qp::StandingQp};
 
 /// Muscles that are solved together from the markers that observe them.
 #[derive(Clone, Debug)]
 struct Block {
-    qp: BoxQp,
+    qp: StandingQp,
     muscles: Range<usize>,
     /// The region whose own markers are used; `None`: all.
     region: Option<usize>,
+    /// D of the muscles, at the coordinates of the markers that are used.
+    projection: Projection,
+    coordinates: Range<usize>,
 }
 
 /// One block, or one a region.
 #[derive(Clone, Debug)]
 pub(super) struct StillProblem {
     blocks: Vec<Block>,
-    linear: Vec<f64>,
     /// d by rows: 0 where a marker is not used.
     displacements: Vec<f64>,
     /// Where x started: a block that fails stands still.
@@ -39,11 +41,7 @@ pub(super) struct StillProblem {
 
 impl StillProblem {
     pub fn new(model: &MarkerModel, mode: RegionMode) -> Self {
-        let block = |muscles: Range<usize>, region| Block {
-            qp: BoxQp::new(muscles.len()),
-            muscles,
-            region,
-        };
+        let block = |muscles, region| Block::new(model, muscles, region);
         let blocks = match mode {
             RegionMode::Joint => vec![block(0..model.n_muscles(), None)],
             RegionMode::Split => (0..2)
@@ -52,7 +50,6 @@ impl StillProblem {
         };
         Self {
             blocks,
-            linear: vec![0.0; model.n_muscles()],
             displacements: vec![0.0; 3 * model.n_markers()],
             before: vec![0.0; model.n_muscles()],
             own_gram: vec![0.0; model.n_muscles() * model.n_muscles()],
@@ -92,24 +89,28 @@ impl StillProblem {
     ) -> f64 {
         let mut kkt_residual = 0.0_f64;
         self.before.copy_from_slice(x);
+        let (displacements, _) = self.displacements.as_chunks_mut::<3>();
         for &j in &evidence.used {
-            let displacement = positions[j] - model.rest[j];
-            self.displacements[3 * j..3 * j + 3].copy_from_slice(displacement.as_slice());
+            displacements[j] = (positions[j] - model.rest[j]).into();
         }
-        for block in &mut self.blocks {
-            let held = |index: usize| evidence.regions[index].held.is_some();
-            if block.region.is_some_and(held) {
-                continue;
+        let solved = |it: &&mut Block| !it.is_held(evidence);
+        for block in self.blocks.iter_mut().filter(solved) {
+            block.start(&self.displacements, evidence, x);
+        }
+        // By turns: while one block waits for its division, the other goes on.
+        let mut goes_on = true;
+        while goes_on {
+            goes_on = false;
+            for block in self.blocks.iter_mut().filter(solved) {
+                goes_on |= block.qp.advance();
             }
-            let muscles = block.muscles.clone();
-            let linear = &mut self.linear[muscles.clone()];
-            correlate(model, block, &self.displacements, linear);
-            let x = &mut x[muscles.clone()];
-            fix(&mut block.qp, &evidence.parts[muscles.clone()], x);
-            if let Ok(report) = block.qp.solve(linear, x) {
+        }
+        for block in self.blocks.iter_mut().filter(solved) {
+            let x = &mut x[block.muscles.clone()];
+            if let Ok(report) = block.qp.finish(x) {
                 kkt_residual = kkt_residual.max(report.kkt_residual);
             } else {
-                x.copy_from_slice(&self.before[muscles]);
+                x.copy_from_slice(&self.before[block.muscles.clone()]);
                 failed(block.region);
             }
         }
@@ -118,6 +119,39 @@ impl StillProblem {
 }
 
 impl Block {
+    fn new(model: &MarkerModel, muscles: Range<usize>, region: Option<usize>) -> Self {
+        let markers = region.map_or(0..model.n_markers(), |it| model.own_markers[it].clone());
+        let coordinates = 3 * markers.start..3 * markers.end;
+        let columns = muscles
+            .clone()
+            .map(|it| &model.column(it)[coordinates.clone()]);
+        Self {
+            qp: StandingQp::new(muscles.len()),
+            projection: Projection::new(columns),
+            muscles,
+            region,
+            coordinates,
+        }
+    }
+
+    /// Whether the block's region stands still in this frame.
+    fn is_held(&self, evidence: &Evidence) -> bool {
+        let region = self.region.map(|it| &evidence.regions[it]);
+        region.is_some_and(|it| it.held.is_some())
+    }
+
+    /// Forms `c = Dᵀd` and starts.
+    fn start(&mut self, displacements: &[f64], evidence: &Evidence, x: &[f64]) {
+        let displacements = &displacements[self.coordinates.clone()];
+        self.projection.apply(displacements, self.qp.c_mut());
+        for (i, muscle) in self.muscles.clone().enumerate() {
+            if evidence.parts[muscle] != Part::Solved {
+                self.qp.set_bounds(i, x[muscle], x[muscle]);
+            }
+        }
+        self.qp.start();
+    }
+
     /// Takes the block's part of `gram`, whose columns are m apart.
     fn set_hessian(&mut self, gram: &[f64], m: usize) {
         let (size, stride) = (self.muscles.len(), self.qp.stride());
@@ -129,22 +163,6 @@ impl Block {
                 q[i * stride + i] += RIDGE;
             }
         });
-    }
-}
-
-/// `c = Dᵀd` over the block's markers for the block's muscles.
-fn correlate(model: &MarkerModel, block: &Block, displacements: &[f64], linear: &mut [f64]) {
-    let own = block.region.map_or(0..model.n_markers(), |index| {
-        model.own_markers[index].clone()
-    });
-    for (c, muscle) in linear.iter_mut().zip(block.muscles.clone()) {
-        let support = &model.support[muscle];
-        let rows = support.start.max(3 * own.start)..support.end.min(3 * own.end);
-        *c = if rows.is_empty() {
-            0.0
-        } else {
-            dot(&model.column(muscle)[rows.clone()], &displacements[rows])
-        };
     }
 }
 

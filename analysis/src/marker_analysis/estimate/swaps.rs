@@ -26,22 +26,22 @@ const NEARER: f64 = 3.0;
 pub(super) fn find(
     used: &[usize],
     positions: &[Vector3<f64>],
-    expected: &[Vector3<f64>],
+    expected: &[[f64; 3]],
     sigma_cm: f64,
     swaps: &mut Vec<[usize; 2]>,
 ) {
     swaps.clear();
     let far = FAR_CM.max(FAR_SIGMAS * sigma_cm);
-    let is_far = |j: &&usize| (positions[**j] - expected[**j]).norm_squared() > far * far;
+    let is_far =
+        |j: &&usize| (positions[**j] - Vector3::from(expected[**j])).norm_squared() > far * far;
     let mut candidates = [0; MAX_CANDIDATES];
     let mut n = 0;
     for (to, j) in candidates.iter_mut().zip(used.iter().filter(is_far)) {
         *to = *j;
         n += 1;
     }
-    let fits = |from: usize, to: usize| {
-        NEARER * (positions[from] - expected[to]).norm() < (positions[from] - expected[from]).norm()
-    };
+    let distance = |from: usize, to: usize| (positions[from] - Vector3::from(expected[to])).norm();
+    let fits = |from: usize, to: usize| NEARER * distance(from, to) < distance(from, from);
     for (place, &a) in candidates[..n].iter().enumerate() {
         let is_free = |j: usize| !swaps.iter().flatten().any(|it| *it == j);
         if swaps.len() == MAX_SWAPS || !is_free(a) {
@@ -59,7 +59,7 @@ mod tests {
     use super::*;
 
     fn found(positions: &[Vector3<f64>]) -> Vec<[usize; 2]> {
-        let expected: Vec<_> = (0..6).map(place).collect();
+        let expected: Vec<_> = (0..6).map(|j| place(j).into()).collect();
         let used: Vec<_> = (0..6).collect();
         let mut swaps = Vec::new();
         find(&used, positions, &expected, 0.05, &mut swaps);
