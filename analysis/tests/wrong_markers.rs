@@ -11,6 +11,8 @@ use frontalis_analysis::{
     synthesis::reference_face,
 };
 use nalgebra::{Point3, UnitQuaternion, Vector3};
+use rand::SeedableRng as _;
+use rand_pcg::Pcg64;
 
 #[path = "support/performance.rs"]
 mod performance;
@@ -214,33 +216,71 @@ fn another_axis_upwards_changes_nothing() {
     }
 }
 
-#[test]
-fn a_hidden_eyelid_marker_is_said_and_its_muscle_let_go() {
-    let mut frames = Performance::of(&actor(), CALM).frames;
+/// Lids that are closed once a second for a fifth of it, both together; all else as in [`CALM`].
+fn blinking() -> Performance {
     let actor = actor();
-    let lid = actor
-        .muscle_set()
-        .index_of("orbicularis_oculi_left")
-        .unwrap();
-    let alone = |j: &usize| {
-        let basis = actor.marker_basis();
-        let of_marker = |j: usize| basis.of_marker_cm(j)[lid].norm_squared();
-        let all: f64 = (0..actor.markers().len()).map(of_marker).sum();
-        of_marker(*j) > 0.85 * all
-    };
-    let marker = (0..actor.markers().len()).find(alone).unwrap();
-    for frame in &mut frames[SPOILED..] {
-        frame.positions[marker] = None;
+    let mut truth = Performance::of(&actor, CALM).truth;
+    for (k, row) in truth.iter_mut().enumerate().skip(60) {
+        let phase = ((k % 60) as f64 / 12.0).min(1.0);
+        let closed = 0.5 - 0.5 * (std::f64::consts::TAU * phase).cos();
+        for lid in LIDS {
+            row[actor.muscle_set().index_of(lid).unwrap()] = closed;
+        }
     }
-    let samples = solve(&frames);
-    assert!(
-        samples[SPOILED..]
-            .iter()
-            .all(|it| it.unobserved.contains(&lid))
-    );
-    let last = samples.last().unwrap();
-    assert!(last.activations[lid] < 0.05, "{}", last.activations[lid]);
-    assert!(last.standard_errors[lid] > samples[SPOILED - 1].standard_errors[lid]);
+    Performance::of_truth(&actor, CALM, truth, &mut Pcg64::seed_from_u64(7))
+}
+
+const LIDS: [&str; 2] = ["orbicularis_oculi_left", "orbicularis_oculi_right"];
+
+/// The marker on which a lid rests alone.
+fn marker_of(lid: usize) -> usize {
+    let actor = actor();
+    let basis = actor.marker_basis();
+    let of_marker = |j: usize| basis.of_marker_cm(j)[lid].norm_squared();
+    let all: f64 = (0..actor.markers().len()).map(of_marker).sum();
+    (0..actor.markers().len())
+        .find(|&j| of_marker(j) > 0.85 * all)
+        .unwrap()
+}
+
+#[test]
+fn a_lid_whose_marker_is_hidden_is_said_and_blinks_with_the_other() {
+    let mut performance = blinking();
+    let lid = actor().muscle_set().index_of(LIDS[0]).unwrap();
+    for frame in &mut performance.frames[SPOILED..] {
+        frame.positions[marker_of(lid)] = None;
+    }
+    let samples = solve(&performance.frames);
+    let hidden = samples.iter().zip(&performance.truth).skip(SPOILED);
+    for (sample, truth) in hidden {
+        assert_eq!(sample.unobserved, [lid]);
+        let error = (sample.activations[lid] - truth[lid]).abs();
+        assert!(error < 0.1, "{error} at {:?}", sample.frame);
+        assert!(sample.standard_errors[lid] > samples[SPOILED - 1].standard_errors[lid]);
+    }
+}
+
+#[test]
+fn lids_that_are_both_hidden_are_let_go() {
+    let mut performance = blinking();
+    let lids = LIDS.map(|it| actor().muscle_set().index_of(it).unwrap());
+    // In the middle of a blink.
+    let closed = 186;
+    for frame in &mut performance.frames[closed..] {
+        for lid in lids {
+            frame.positions[marker_of(lid)] = None;
+        }
+    }
+    let samples = solve(&performance.frames);
+    for lid in lids {
+        assert!(samples[closed - 1].activations[lid] > 0.8);
+        assert!(samples[closed..].iter().all(|it| it.unobserved == lids));
+        let fallen = samples[closed..]
+            .windows(2)
+            .all(|it| it[1].activations[lid] <= it[0].activations[lid]);
+        assert!(fallen, "it does not come back");
+        assert!(samples.last().unwrap().activations[lid] < 0.05);
+    }
 }
 
 #[test]

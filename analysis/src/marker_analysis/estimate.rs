@@ -5,7 +5,7 @@
 //! The noise level and the covariance of the solution go on to the next frame.
 
 mod coupling;
-
+mod mirrors;
 mod normal_equations;
 mod swaps;
 mod temporal;
@@ -29,6 +29,7 @@ use crate::{
     },
 };
 use coupling::Coupling;
+use mirrors::{Follower, Mirrors};
 use normal_equations::NormalEquations;
 use temporal::TemporalPrior;
 
@@ -47,6 +48,9 @@ const LARGEST_THRESHOLD: f64 = 1.0;
 /// The L1 weight of a muscle falls to a quarter where its contraction is this.
 const VANISHING: f64 = 0.022;
 
+/// Standard deviation of the difference of mirror images of which one is not observed.
+const MIRROR_DIFFERENCE: f64 = 0.1;
+
 /// A head that turns by more than this in a round, radians, has its arms measured anew.
 const LARGE_TURN: f64 = 0.01;
 
@@ -64,6 +68,7 @@ pub(super) struct Estimator {
     qp: BoxQp,
     equations: NormalEquations,
     coupling: Coupling,
+    mirrors: Mirrors,
     prior: Option<TemporalPrior>,
     noise: Noise,
     posterior: Posterior,
@@ -112,6 +117,7 @@ impl Estimator {
         for i in m..size {
             qp.set_bounds(i, -MOTION_BOUND, MOTION_BOUND);
         }
+        let mirrors = Mirrors::new(model, muscles);
         let prior = (objective.smoothing > 0.0)
             .then(|| TemporalPrior::new(m, step_scale(objective.smoothing), rate_hz));
         Self {
@@ -122,7 +128,8 @@ impl Estimator {
             boxes: boxes.to_vec(),
             bounds: boxes.to_vec(),
             equations: NormalEquations::new(model, has_motion, qp.stride()),
-            coupling: Coupling::new(model, muscles, objective, size),
+            coupling: Coupling::new(model, muscles, mirrors.pairs(), objective, size),
+            mirrors,
             prior,
             noise: Noise::new(n),
             posterior: Posterior::with_capacity(size),
@@ -216,6 +223,7 @@ impl Estimator {
             turned = self.turn(motion);
             self.measure(frame, motion, x);
         }
+        self.mirrors.end(frame.evidence, x);
         self.learn(frame.evidence, x)?;
         report.ok_or(BoxQpError::Budget(ROUNDS))
     }
@@ -229,6 +237,8 @@ impl Estimator {
                 self.expected[i] = (x[i] * frame.decay).max(own[0]);
             }
         }
+        let elapsed_secs = frame.elapsed / self.rate_hz;
+        self.mirrors.begin(frame.evidence, elapsed_secs);
         if let Some(prior) = &mut self.prior {
             prior.begin(frame.elapsed);
         }
@@ -236,6 +246,16 @@ impl Estimator {
         self.swaps.clear();
         if self.robust {
             self.undo_swaps(frame, motion, x);
+        }
+    }
+
+    /// Fixes the muscles that follow their mirror image where that was found in the round before.
+    fn follow(&mut self, x: &[f64]) {
+        for it in self.mirrors.followers() {
+            let [lower, upper] = self.boxes[it.muscle];
+            let place = (x[it.leader] + it.difference).clamp(lower, upper);
+            self.bounds[it.muscle] = [place; 2];
+            self.expected[it.muscle] = place;
         }
     }
 
@@ -289,6 +309,7 @@ impl Estimator {
 
     /// Adds the terms of the objective and solves for the unknowns.
     fn solve_round(&mut self, x: &mut [f64], round: usize) -> Result<Report, BoxQpError> {
+        self.follow(x);
         let stride = self.qp.stride();
         let variance = self.noise.changing_variance();
         self.linear.copy_from_slice(&self.equations.linear);
@@ -416,6 +437,10 @@ impl Estimator {
             *it = (noise * variance * (1.0 + prior_share) + lag * lag)
                 .sqrt()
                 .min(UNKNOWN);
+        }
+        for &Follower { muscle, leader, .. } in self.mirrors.followers() {
+            let error = self.standard_errors[leader].hypot(MIRROR_DIFFERENCE);
+            self.standard_errors[muscle] = error.min(UNKNOWN);
         }
     }
 }

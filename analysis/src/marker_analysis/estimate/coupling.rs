@@ -27,6 +27,7 @@ impl Coupling {
     pub fn new(
         model: &MarkerModel,
         muscles: &MuscleSet,
+        mirrored: &[[usize; 2]],
         objective: &Objective,
         size: usize,
     ) -> Self {
@@ -35,9 +36,8 @@ impl Coupling {
             model.muscles.iter().position(|it| *it == index)
         };
         let pair = |a: &str, b: &str| Some([place(a)?, place(b)?]);
-        let names = muscles.muscles().iter().map(|it| it.name.as_str());
         let is_symmetric = objective.symmetry > 0.0;
-        let mirrored = names.filter_map(|name| pair(name, &mirror_name(name)?));
+        let mirrored = mirrored.iter().copied();
         let exclusive = objective.exclusive_pairs.iter();
         let difference = (USUAL_DIFFERENCE * (1.0 - objective.symmetry) / objective.symmetry)
             .max(LEAST_DIFFERENCE);
@@ -107,26 +107,4 @@ fn relax(
 ) -> Result<Report, BoxQpError> {
     qp.set_bounds(muscle, 0.0, 0.0);
     qp.solve(linear, solution)
-}
-
-/// The name of a left muscle's mirror image: `zygomatic_major_left` and `mouthSmileLeft`, `frontalis_L` alike.
-fn mirror_name(name: &str) -> Option<String> {
-    [("left", "right"), ("Left", "Right"), ("_L", "_R")]
-        .into_iter()
-        .find_map(|(left, right)| Some(format!("{}{right}", name.strip_suffix(left)?)))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn only_a_left_muscle_names_its_mirror_image() {
-        let right = mirror_name;
-        assert_eq!(right("risorius_left").as_deref(), Some("risorius_right"));
-        assert_eq!(right("mouthSmileLeft").as_deref(), Some("mouthSmileRight"));
-        assert_eq!(right("frontalis_L").as_deref(), Some("frontalis_R"));
-        assert_eq!(right("risorius_right"), None);
-        assert_eq!(right("jaw_rotation"), None);
-    }
 }
