@@ -63,6 +63,11 @@ fn main() {
     }
     let nanos = solver_nanos(&reference_face(), &MarkerSettings::default());
     cpu_clock::print_row("27 x 16 default", nanos, product);
+    let nanos = solver_nanos(
+        &production_face::actor(60, 52, 3),
+        &MarkerSettings::default(),
+    );
+    cpu_clock::print_row("60 x 52 default", nanos, product);
     let whole = analyzer_nanos();
     cpu_clock::print_row("default, with its sample", whole, product);
     let alignment = alignment_nanos();

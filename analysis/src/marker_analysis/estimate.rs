@@ -159,6 +159,7 @@ impl Estimator {
     /// Takes over what the estimator that this one replaces knew of the noise and the contractions.
     pub fn continue_from(&mut self, before: &Self) {
         self.noise.continue_from(&before.noise);
+        self.mirrors.continue_from(&before.mirrors);
         if self.standard_errors.len() != before.standard_errors.len() {
             return;
         }

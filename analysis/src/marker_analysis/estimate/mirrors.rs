@@ -47,6 +47,13 @@ impl Mirrors {
         }
     }
 
+    /// Takes over what the pairs of the same muscles differed by.
+    pub fn continue_from(&mut self, before: &Self) {
+        if before.pairs == self.pairs {
+            self.differences.clone_from(&before.differences);
+        }
+    }
+
     /// All pairs, left and right.
     pub fn pairs(&self) -> &[[usize; 2]] {
         &self.pairs
