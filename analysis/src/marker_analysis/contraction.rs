@@ -349,7 +349,7 @@ impl ContractionSolver {
 
     /// Fits the head's motion anew where the last one is too old to start from, or the head has jumped away from it.
     fn start_motion(&mut self, evidence: &Evidence) -> bool {
-        self.reproduction.of(&self.model, &self.x);
+        self.reproduction.of(&self.x);
         if self.pose_is_recent() && !self.head_jumped(evidence) {
             return true;
         }
@@ -397,7 +397,7 @@ impl ContractionSolver {
 
     /// Per-frame marker error of each region (Choe & Ko 2001, section 5).
     fn measure_errors(&mut self, evidence: &Evidence) {
-        self.reproduction.of(&self.model, &self.x);
+        self.reproduction.of(&self.x);
         let pairs = self.stabilized.iter().zip(self.reproduction.positions());
         for (error, (observed, reproduced)) in self.errors.iter_mut().zip(pairs) {
             *error = (observed - Vector3::from(*reproduced)).norm_squared();

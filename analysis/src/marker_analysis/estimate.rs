@@ -276,7 +276,7 @@ impl Estimator {
 
     /// Moves the markers by the present motion and measures how far each is from where x puts it.
     fn measure(&mut self, frame: &mut Frame<'_>, motion: &Stabilizer, x: &[f64]) {
-        self.reproduction.of(frame.model, x);
+        self.reproduction.of(x);
         for &j in &frame.evidence.used {
             frame.stabilized[j] = if self.has_motion {
                 motion.apply(&frame.aligned[j])

@@ -10,7 +10,7 @@ use nalgebra::Vector3;
 use crate::{
     face::{actor::Actor, basis::MarkerBasis, region::FaceRegion},
     marker_analysis::alignment::Alignment,
-    numeric::{lanes::LANES, projection::support},
+    numeric::projection::support,
 };
 
 #[derive(Clone, Debug)]
@@ -31,8 +31,6 @@ pub(super) struct MarkerModel {
     pub rows: Vec<f64>,
     /// D by columns: entry `muscle * 3 * n_markers + 3 * marker + axis`, centimeters.
     pub columns: Vec<f64>,
-    /// The coordinates that each muscle moves: all others of its column are 0. Widened to whole chunks of the loops.
-    pub support: Vec<Range<usize>>,
     /// The muscles that move each marker: all others of its rows are 0.
     pub marker_support: Vec<Range<usize>>,
 }
@@ -71,7 +69,6 @@ impl MarkerModel {
             rest,
             rows: vec![0.0; 3 * markers.len() * muscles.len()],
             columns: vec![0.0; 3 * markers.len() * muscles.len()],
-            support: Vec::new(),
             marker_support: Vec::new(),
             markers,
             muscles,
@@ -80,14 +77,11 @@ impl MarkerModel {
             expected,
         };
         model.lay_out(&basis);
-        model.find_supports();
+        model.find_marker_support();
         model
     }
 
-    fn find_supports(&mut self) {
-        self.support = (0..self.n_muscles())
-            .map(|muscle| widened(&support(self.column(muscle)), 3 * self.n_markers()))
-            .collect();
+    fn find_marker_support(&mut self) {
         self.marker_support = (0..self.n_markers())
             .map(|marker| self.muscles_that_move(marker))
             .collect();
@@ -159,7 +153,7 @@ impl MarkerModel {
                 }
             }
         }
-        apart.find_supports();
+        apart.find_marker_support();
         apart
     }
 
@@ -186,13 +180,6 @@ impl MarkerModel {
             .sum();
         squared.sqrt()
     }
-}
-
-/// The chunks of `0..n` that hold `range`. All of them start where chunks of others do: a processor waits when it reads what
-/// is half of one entry and half of the next of those just written.
-fn widened(range: &Range<usize>, n: usize) -> Range<usize> {
-    let end = range.end.next_multiple_of(LANES).min(n);
-    range.start / LANES * LANES..end
 }
 
 /// The kept items sorted by region (`None` last), with the range of each region.

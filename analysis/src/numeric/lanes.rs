@@ -82,18 +82,6 @@ pub(crate) fn add_multiple<const W: usize>(y: &mut [f64; W], a: f64, x: &[f64; W
     }
 }
 
-/// `y += a * x` for slices; those whose length is a multiple of [`LANES`] are fastest.
-pub(crate) fn add_multiple_of(y: &mut [f64], a: f64, x: &[f64]) {
-    let (chunks, rest) = y.as_chunks_mut::<LANES>();
-    let (x_chunks, x_rest) = x.as_chunks::<LANES>();
-    for (y, x) in chunks.iter_mut().zip(x_chunks) {
-        add_multiple(y, a, x);
-    }
-    for (y, x) in rest.iter_mut().zip(x_rest) {
-        *y += a * x;
-    }
-}
-
 /// `y -= a * x` for lengths that are multiples of [`LANES`].
 #[inline]
 pub(crate) fn subtract_multiple(y: &mut [f64], a: f64, x: &[f64]) {
