@@ -5051,6 +5051,221 @@ impl ::prost::Name for ResolveTakeResponse {
         "/frontalis.v1.ResolveTakeResponse".into()
     }
 }
+/// What a take's file holds beside the frames that came and the samples that went, on the channel "events", in the order in
+/// which it happened: all that is needed to solve the frames again.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct TakeEvent {
+    #[prost(oneof = "take_event::Event", tags = "1, 2, 3, 4, 5, 6, 7, 8, 9")]
+    pub event: ::core::option::Option<take_event::Event>,
+}
+/// Nested message and enum types in `TakeEvent`.
+pub mod take_event {
+    #[derive(Clone, PartialEq, ::prost::Oneof)]
+    pub enum Event {
+        /// the first message of the file
+        #[prost(message, tag = "1")]
+        Header(super::TakeHeader),
+        /// the frames that follow come from this publisher
+        #[prost(message, tag = "2")]
+        Source(super::TakeSource),
+        /// the frames that follow are solved so
+        #[prost(message, tag = "3")]
+        Change(super::TakeChange),
+        /// another neutral face was asked for
+        #[prost(message, tag = "4")]
+        Recenter(super::TakeRecenter),
+        /// frame numbers without samples
+        #[prost(message, tag = "5")]
+        Gap(super::Gap),
+        /// the session's state changed
+        #[prost(message, tag = "6")]
+        State(super::StreamState),
+        /// the neutral face is known, in the take or before it
+        #[prost(message, tag = "7")]
+        Alignment(super::TakeAlignment),
+        /// the last message of a take that was stopped
+        #[prost(message, tag = "8")]
+        Stop(super::TakeStop),
+        /// here the file was damaged, and nothing of it could be read
+        #[prost(message, tag = "9")]
+        Cut(super::TakeCut),
+    }
+}
+impl ::prost::Name for TakeEvent {
+    const NAME: &'static str = "TakeEvent";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.TakeEvent".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.TakeEvent".into()
+    }
+}
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct TakeHeader {
+    /// "takes/{id}"
+    #[prost(string, tag = "1")]
+    pub take: ::prost::alloc::string::String,
+    #[prost(string, tag = "2")]
+    pub session: ::prost::alloc::string::String,
+    #[prost(uint64, tag = "3")]
+    pub run: u64,
+    #[prost(string, tag = "4")]
+    pub actor: ::prost::alloc::string::String,
+    #[prost(uint32, tag = "5")]
+    pub actor_revision: u32,
+    /// of the actor's package, eight hexadecimal digits
+    #[prost(string, tag = "6")]
+    pub package_crc32c: ::prost::alloc::string::String,
+    #[prost(message, optional, tag = "7")]
+    pub settings: ::core::option::Option<SessionSettings>,
+    #[prost(string, tag = "8")]
+    pub slate: ::prost::alloc::string::String,
+    #[prost(uint32, tag = "9")]
+    pub number: u32,
+    #[prost(string, tag = "10")]
+    pub gesture: ::prost::alloc::string::String,
+    #[prost(message, optional, tag = "11")]
+    pub start_time: ::core::option::Option<crate::Timestamp>,
+    /// names of the activations, in order
+    #[prost(string, repeated, tag = "12")]
+    pub controls: ::prost::alloc::vec::Vec<::prost::alloc::string::String>,
+    /// the actor's, in order
+    #[prost(string, repeated, tag = "13")]
+    pub markers: ::prost::alloc::vec::Vec<::prost::alloc::string::String>,
+    /// of the first sample after the start
+    #[prost(uint64, tag = "14")]
+    pub next_sequence: u64,
+    #[prost(string, tag = "15")]
+    pub server_version: ::prost::alloc::string::String,
+    /// first frame number that the session did not have at the start
+    #[prost(uint64, tag = "16")]
+    pub next_frame: u64,
+}
+impl ::prost::Name for TakeHeader {
+    const NAME: &'static str = "TakeHeader";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.TakeHeader".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.TakeHeader".into()
+    }
+}
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct TakeSource {
+    #[prost(string, tag = "1")]
+    pub publisher: ::prost::alloc::string::String,
+    #[prost(uint64, tag = "2")]
+    pub epoch: u64,
+    #[prost(enumeration = "LengthUnit", tag = "3")]
+    pub unit: i32,
+    /// order of the coordinates
+    #[prost(string, repeated, tag = "4")]
+    pub marker_names: ::prost::alloc::vec::Vec<::prost::alloc::string::String>,
+    #[prost(double, tag = "5")]
+    pub rate_hz: f64,
+}
+impl ::prost::Name for TakeSource {
+    const NAME: &'static str = "TakeSource";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.TakeSource".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.TakeSource".into()
+    }
+}
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct TakeChange {
+    #[prost(uint32, tag = "1")]
+    pub actor_revision: u32,
+    /// all of them
+    #[prost(message, optional, tag = "2")]
+    pub settings: ::core::option::Option<SessionSettings>,
+}
+impl ::prost::Name for TakeChange {
+    const NAME: &'static str = "TakeChange";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.TakeChange".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.TakeChange".into()
+    }
+}
+#[derive(Clone, Copy, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct TakeRecenter {
+    #[prost(enumeration = "NeutralSource", tag = "1")]
+    pub source: i32,
+}
+impl ::prost::Name for TakeRecenter {
+    const NAME: &'static str = "TakeRecenter";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.TakeRecenter".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.TakeRecenter".into()
+    }
+}
+#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct TakeAlignment {
+    #[prost(uint32, tag = "1")]
+    pub actor_revision: u32,
+    #[prost(enumeration = "LengthUnit", tag = "2")]
+    pub unit: i32,
+    #[prost(string, repeated, tag = "3")]
+    pub marker_names: ::prost::alloc::vec::Vec<::prost::alloc::string::String>,
+    /// as the catalogue keeps it
+    #[prost(string, tag = "4")]
+    pub alignment_json: ::prost::alloc::string::String,
+}
+impl ::prost::Name for TakeAlignment {
+    const NAME: &'static str = "TakeAlignment";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.TakeAlignment".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.TakeAlignment".into()
+    }
+}
+#[derive(Clone, Copy, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct TakeStop {
+    #[prost(message, optional, tag = "1")]
+    pub stop_time: ::core::option::Option<crate::Timestamp>,
+    #[prost(uint64, tag = "2")]
+    pub n_frames: u64,
+    #[prost(uint64, tag = "3")]
+    pub n_samples: u64,
+}
+impl ::prost::Name for TakeStop {
+    const NAME: &'static str = "TakeStop";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.TakeStop".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.TakeStop".into()
+    }
+}
+#[derive(Clone, Copy, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct TakeCut {
+    /// that could not be read
+    #[prost(uint64, tag = "1")]
+    pub n_bytes: u64,
+}
+impl ::prost::Name for TakeCut {
+    const NAME: &'static str = "TakeCut";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.TakeCut".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.TakeCut".into()
+    }
+}
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord, ::prost::Enumeration)]
 #[repr(i32)]
 pub enum TakeFormat {

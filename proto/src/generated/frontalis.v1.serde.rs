@@ -13955,6 +13955,562 @@ impl<'de> serde::Deserialize<'de> for Take {
         deserializer.deserialize_struct("frontalis.v1.Take", FIELDS, GeneratedVisitor)
     }
 }
+impl serde::Serialize for TakeAlignment {
+    #[allow(deprecated)]
+    fn serialize<S>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error>
+    where
+        S: serde::Serializer,
+    {
+        use serde::ser::SerializeStruct;
+        let mut len = 0;
+        if self.actor_revision != 0 {
+            len += 1;
+        }
+        if self.unit != 0 {
+            len += 1;
+        }
+        if !self.marker_names.is_empty() {
+            len += 1;
+        }
+        if !self.alignment_json.is_empty() {
+            len += 1;
+        }
+        let mut struct_ser = serializer.serialize_struct("frontalis.v1.TakeAlignment", len)?;
+        if self.actor_revision != 0 {
+            struct_ser.serialize_field("actorRevision", &self.actor_revision)?;
+        }
+        if self.unit != 0 {
+            let v = LengthUnit::try_from(self.unit)
+                .map_err(|_| serde::ser::Error::custom(format!("Invalid variant {}", self.unit)))?;
+            struct_ser.serialize_field("unit", &v)?;
+        }
+        if !self.marker_names.is_empty() {
+            struct_ser.serialize_field("markerNames", &self.marker_names)?;
+        }
+        if !self.alignment_json.is_empty() {
+            struct_ser.serialize_field("alignmentJson", &self.alignment_json)?;
+        }
+        struct_ser.end()
+    }
+}
+impl<'de> serde::Deserialize<'de> for TakeAlignment {
+    #[allow(deprecated)]
+    fn deserialize<D>(deserializer: D) -> std::result::Result<Self, D::Error>
+    where
+        D: serde::Deserializer<'de>,
+    {
+        const FIELDS: &[&str] = &[
+            "actor_revision",
+            "actorRevision",
+            "unit",
+            "marker_names",
+            "markerNames",
+            "alignment_json",
+            "alignmentJson",
+        ];
+
+        #[allow(clippy::enum_variant_names)]
+        enum GeneratedField {
+            ActorRevision,
+            Unit,
+            MarkerNames,
+            AlignmentJson,
+        }
+        impl<'de> serde::Deserialize<'de> for GeneratedField {
+            fn deserialize<D>(deserializer: D) -> std::result::Result<GeneratedField, D::Error>
+            where
+                D: serde::Deserializer<'de>,
+            {
+                struct GeneratedVisitor;
+
+                impl serde::de::Visitor<'_> for GeneratedVisitor {
+                    type Value = GeneratedField;
+
+                    fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                        write!(formatter, "expected one of: {:?}", &FIELDS)
+                    }
+
+                    #[allow(unused_variables)]
+                    fn visit_str<E>(self, value: &str) -> std::result::Result<GeneratedField, E>
+                    where
+                        E: serde::de::Error,
+                    {
+                        match value {
+                            "actorRevision" | "actor_revision" => Ok(GeneratedField::ActorRevision),
+                            "unit" => Ok(GeneratedField::Unit),
+                            "markerNames" | "marker_names" => Ok(GeneratedField::MarkerNames),
+                            "alignmentJson" | "alignment_json" => Ok(GeneratedField::AlignmentJson),
+                            _ => Err(serde::de::Error::unknown_field(value, FIELDS)),
+                        }
+                    }
+                }
+                deserializer.deserialize_identifier(GeneratedVisitor)
+            }
+        }
+        struct GeneratedVisitor;
+        impl<'de> serde::de::Visitor<'de> for GeneratedVisitor {
+            type Value = TakeAlignment;
+
+            fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                formatter.write_str("struct frontalis.v1.TakeAlignment")
+            }
+
+            fn visit_map<V>(self, mut map_: V) -> std::result::Result<TakeAlignment, V::Error>
+                where
+                    V: serde::de::MapAccess<'de>,
+            {
+                let mut actor_revision__ = None;
+                let mut unit__ = None;
+                let mut marker_names__ = None;
+                let mut alignment_json__ = None;
+                while let Some(k) = map_.next_key()? {
+                    match k {
+                        GeneratedField::ActorRevision => {
+                            if actor_revision__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("actorRevision"));
+                            }
+                            actor_revision__ = 
+                                Some(map_.next_value::<::pbjson::private::NumberDeserialize<_>>()?.0)
+                            ;
+                        }
+                        GeneratedField::Unit => {
+                            if unit__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("unit"));
+                            }
+                            unit__ = Some(map_.next_value::<LengthUnit>()? as i32);
+                        }
+                        GeneratedField::MarkerNames => {
+                            if marker_names__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("markerNames"));
+                            }
+                            marker_names__ = Some(map_.next_value()?);
+                        }
+                        GeneratedField::AlignmentJson => {
+                            if alignment_json__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("alignmentJson"));
+                            }
+                            alignment_json__ = Some(map_.next_value()?);
+                        }
+                    }
+                }
+                Ok(TakeAlignment {
+                    actor_revision: actor_revision__.unwrap_or_default(),
+                    unit: unit__.unwrap_or_default(),
+                    marker_names: marker_names__.unwrap_or_default(),
+                    alignment_json: alignment_json__.unwrap_or_default(),
+                })
+            }
+        }
+        deserializer.deserialize_struct("frontalis.v1.TakeAlignment", FIELDS, GeneratedVisitor)
+    }
+}
+impl serde::Serialize for TakeChange {
+    #[allow(deprecated)]
+    fn serialize<S>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error>
+    where
+        S: serde::Serializer,
+    {
+        use serde::ser::SerializeStruct;
+        let mut len = 0;
+        if self.actor_revision != 0 {
+            len += 1;
+        }
+        if self.settings.is_some() {
+            len += 1;
+        }
+        let mut struct_ser = serializer.serialize_struct("frontalis.v1.TakeChange", len)?;
+        if self.actor_revision != 0 {
+            struct_ser.serialize_field("actorRevision", &self.actor_revision)?;
+        }
+        if let Some(v) = self.settings.as_ref() {
+            struct_ser.serialize_field("settings", v)?;
+        }
+        struct_ser.end()
+    }
+}
+impl<'de> serde::Deserialize<'de> for TakeChange {
+    #[allow(deprecated)]
+    fn deserialize<D>(deserializer: D) -> std::result::Result<Self, D::Error>
+    where
+        D: serde::Deserializer<'de>,
+    {
+        const FIELDS: &[&str] = &[
+            "actor_revision",
+            "actorRevision",
+            "settings",
+        ];
+
+        #[allow(clippy::enum_variant_names)]
+        enum GeneratedField {
+            ActorRevision,
+            Settings,
+        }
+        impl<'de> serde::Deserialize<'de> for GeneratedField {
+            fn deserialize<D>(deserializer: D) -> std::result::Result<GeneratedField, D::Error>
+            where
+                D: serde::Deserializer<'de>,
+            {
+                struct GeneratedVisitor;
+
+                impl serde::de::Visitor<'_> for GeneratedVisitor {
+                    type Value = GeneratedField;
+
+                    fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                        write!(formatter, "expected one of: {:?}", &FIELDS)
+                    }
+
+                    #[allow(unused_variables)]
+                    fn visit_str<E>(self, value: &str) -> std::result::Result<GeneratedField, E>
+                    where
+                        E: serde::de::Error,
+                    {
+                        match value {
+                            "actorRevision" | "actor_revision" => Ok(GeneratedField::ActorRevision),
+                            "settings" => Ok(GeneratedField::Settings),
+                            _ => Err(serde::de::Error::unknown_field(value, FIELDS)),
+                        }
+                    }
+                }
+                deserializer.deserialize_identifier(GeneratedVisitor)
+            }
+        }
+        struct GeneratedVisitor;
+        impl<'de> serde::de::Visitor<'de> for GeneratedVisitor {
+            type Value = TakeChange;
+
+            fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                formatter.write_str("struct frontalis.v1.TakeChange")
+            }
+
+            fn visit_map<V>(self, mut map_: V) -> std::result::Result<TakeChange, V::Error>
+                where
+                    V: serde::de::MapAccess<'de>,
+            {
+                let mut actor_revision__ = None;
+                let mut settings__ = None;
+                while let Some(k) = map_.next_key()? {
+                    match k {
+                        GeneratedField::ActorRevision => {
+                            if actor_revision__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("actorRevision"));
+                            }
+                            actor_revision__ = 
+                                Some(map_.next_value::<::pbjson::private::NumberDeserialize<_>>()?.0)
+                            ;
+                        }
+                        GeneratedField::Settings => {
+                            if settings__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("settings"));
+                            }
+                            settings__ = map_.next_value()?;
+                        }
+                    }
+                }
+                Ok(TakeChange {
+                    actor_revision: actor_revision__.unwrap_or_default(),
+                    settings: settings__,
+                })
+            }
+        }
+        deserializer.deserialize_struct("frontalis.v1.TakeChange", FIELDS, GeneratedVisitor)
+    }
+}
+impl serde::Serialize for TakeCut {
+    #[allow(deprecated)]
+    fn serialize<S>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error>
+    where
+        S: serde::Serializer,
+    {
+        use serde::ser::SerializeStruct;
+        let mut len = 0;
+        if self.n_bytes != 0 {
+            len += 1;
+        }
+        let mut struct_ser = serializer.serialize_struct("frontalis.v1.TakeCut", len)?;
+        if self.n_bytes != 0 {
+            #[allow(clippy::needless_borrow)]
+            #[allow(clippy::needless_borrows_for_generic_args)]
+            struct_ser.serialize_field("nBytes", ToString::to_string(&self.n_bytes).as_str())?;
+        }
+        struct_ser.end()
+    }
+}
+impl<'de> serde::Deserialize<'de> for TakeCut {
+    #[allow(deprecated)]
+    fn deserialize<D>(deserializer: D) -> std::result::Result<Self, D::Error>
+    where
+        D: serde::Deserializer<'de>,
+    {
+        const FIELDS: &[&str] = &[
+            "n_bytes",
+            "nBytes",
+        ];
+
+        #[allow(clippy::enum_variant_names)]
+        enum GeneratedField {
+            NBytes,
+        }
+        impl<'de> serde::Deserialize<'de> for GeneratedField {
+            fn deserialize<D>(deserializer: D) -> std::result::Result<GeneratedField, D::Error>
+            where
+                D: serde::Deserializer<'de>,
+            {
+                struct GeneratedVisitor;
+
+                impl serde::de::Visitor<'_> for GeneratedVisitor {
+                    type Value = GeneratedField;
+
+                    fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                        write!(formatter, "expected one of: {:?}", &FIELDS)
+                    }
+
+                    #[allow(unused_variables)]
+                    fn visit_str<E>(self, value: &str) -> std::result::Result<GeneratedField, E>
+                    where
+                        E: serde::de::Error,
+                    {
+                        match value {
+                            "nBytes" | "n_bytes" => Ok(GeneratedField::NBytes),
+                            _ => Err(serde::de::Error::unknown_field(value, FIELDS)),
+                        }
+                    }
+                }
+                deserializer.deserialize_identifier(GeneratedVisitor)
+            }
+        }
+        struct GeneratedVisitor;
+        impl<'de> serde::de::Visitor<'de> for GeneratedVisitor {
+            type Value = TakeCut;
+
+            fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                formatter.write_str("struct frontalis.v1.TakeCut")
+            }
+
+            fn visit_map<V>(self, mut map_: V) -> std::result::Result<TakeCut, V::Error>
+                where
+                    V: serde::de::MapAccess<'de>,
+            {
+                let mut n_bytes__ = None;
+                while let Some(k) = map_.next_key()? {
+                    match k {
+                        GeneratedField::NBytes => {
+                            if n_bytes__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("nBytes"));
+                            }
+                            n_bytes__ = 
+                                Some(map_.next_value::<::pbjson::private::NumberDeserialize<_>>()?.0)
+                            ;
+                        }
+                    }
+                }
+                Ok(TakeCut {
+                    n_bytes: n_bytes__.unwrap_or_default(),
+                })
+            }
+        }
+        deserializer.deserialize_struct("frontalis.v1.TakeCut", FIELDS, GeneratedVisitor)
+    }
+}
+impl serde::Serialize for TakeEvent {
+    #[allow(deprecated)]
+    fn serialize<S>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error>
+    where
+        S: serde::Serializer,
+    {
+        use serde::ser::SerializeStruct;
+        let mut len = 0;
+        if self.event.is_some() {
+            len += 1;
+        }
+        let mut struct_ser = serializer.serialize_struct("frontalis.v1.TakeEvent", len)?;
+        if let Some(v) = self.event.as_ref() {
+            match v {
+                take_event::Event::Header(v) => {
+                    struct_ser.serialize_field("header", v)?;
+                }
+                take_event::Event::Source(v) => {
+                    struct_ser.serialize_field("source", v)?;
+                }
+                take_event::Event::Change(v) => {
+                    struct_ser.serialize_field("change", v)?;
+                }
+                take_event::Event::Recenter(v) => {
+                    struct_ser.serialize_field("recenter", v)?;
+                }
+                take_event::Event::Gap(v) => {
+                    struct_ser.serialize_field("gap", v)?;
+                }
+                take_event::Event::State(v) => {
+                    struct_ser.serialize_field("state", v)?;
+                }
+                take_event::Event::Alignment(v) => {
+                    struct_ser.serialize_field("alignment", v)?;
+                }
+                take_event::Event::Stop(v) => {
+                    struct_ser.serialize_field("stop", v)?;
+                }
+                take_event::Event::Cut(v) => {
+                    struct_ser.serialize_field("cut", v)?;
+                }
+            }
+        }
+        struct_ser.end()
+    }
+}
+impl<'de> serde::Deserialize<'de> for TakeEvent {
+    #[allow(deprecated)]
+    fn deserialize<D>(deserializer: D) -> std::result::Result<Self, D::Error>
+    where
+        D: serde::Deserializer<'de>,
+    {
+        const FIELDS: &[&str] = &[
+            "header",
+            "source",
+            "change",
+            "recenter",
+            "gap",
+            "state",
+            "alignment",
+            "stop",
+            "cut",
+        ];
+
+        #[allow(clippy::enum_variant_names)]
+        enum GeneratedField {
+            Header,
+            Source,
+            Change,
+            Recenter,
+            Gap,
+            State,
+            Alignment,
+            Stop,
+            Cut,
+        }
+        impl<'de> serde::Deserialize<'de> for GeneratedField {
+            fn deserialize<D>(deserializer: D) -> std::result::Result<GeneratedField, D::Error>
+            where
+                D: serde::Deserializer<'de>,
+            {
+                struct GeneratedVisitor;
+
+                impl serde::de::Visitor<'_> for GeneratedVisitor {
+                    type Value = GeneratedField;
+
+                    fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                        write!(formatter, "expected one of: {:?}", &FIELDS)
+                    }
+
+                    #[allow(unused_variables)]
+                    fn visit_str<E>(self, value: &str) -> std::result::Result<GeneratedField, E>
+                    where
+                        E: serde::de::Error,
+                    {
+                        match value {
+                            "header" => Ok(GeneratedField::Header),
+                            "source" => Ok(GeneratedField::Source),
+                            "change" => Ok(GeneratedField::Change),
+                            "recenter" => Ok(GeneratedField::Recenter),
+                            "gap" => Ok(GeneratedField::Gap),
+                            "state" => Ok(GeneratedField::State),
+                            "alignment" => Ok(GeneratedField::Alignment),
+                            "stop" => Ok(GeneratedField::Stop),
+                            "cut" => Ok(GeneratedField::Cut),
+                            _ => Err(serde::de::Error::unknown_field(value, FIELDS)),
+                        }
+                    }
+                }
+                deserializer.deserialize_identifier(GeneratedVisitor)
+            }
+        }
+        struct GeneratedVisitor;
+        impl<'de> serde::de::Visitor<'de> for GeneratedVisitor {
+            type Value = TakeEvent;
+
+            fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                formatter.write_str("struct frontalis.v1.TakeEvent")
+            }
+
+            fn visit_map<V>(self, mut map_: V) -> std::result::Result<TakeEvent, V::Error>
+                where
+                    V: serde::de::MapAccess<'de>,
+            {
+                let mut event__ = None;
+                while let Some(k) = map_.next_key()? {
+                    match k {
+                        GeneratedField::Header => {
+                            if event__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("header"));
+                            }
+                            event__ = map_.next_value::<::std::option::Option<_>>()?.map(take_event::Event::Header)
+;
+                        }
+                        GeneratedField::Source => {
+                            if event__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("source"));
+                            }
+                            event__ = map_.next_value::<::std::option::Option<_>>()?.map(take_event::Event::Source)
+;
+                        }
+                        GeneratedField::Change => {
+                            if event__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("change"));
+                            }
+                            event__ = map_.next_value::<::std::option::Option<_>>()?.map(take_event::Event::Change)
+;
+                        }
+                        GeneratedField::Recenter => {
+                            if event__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("recenter"));
+                            }
+                            event__ = map_.next_value::<::std::option::Option<_>>()?.map(take_event::Event::Recenter)
+;
+                        }
+                        GeneratedField::Gap => {
+                            if event__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("gap"));
+                            }
+                            event__ = map_.next_value::<::std::option::Option<_>>()?.map(take_event::Event::Gap)
+;
+                        }
+                        GeneratedField::State => {
+                            if event__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("state"));
+                            }
+                            event__ = map_.next_value::<::std::option::Option<_>>()?.map(take_event::Event::State)
+;
+                        }
+                        GeneratedField::Alignment => {
+                            if event__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("alignment"));
+                            }
+                            event__ = map_.next_value::<::std::option::Option<_>>()?.map(take_event::Event::Alignment)
+;
+                        }
+                        GeneratedField::Stop => {
+                            if event__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("stop"));
+                            }
+                            event__ = map_.next_value::<::std::option::Option<_>>()?.map(take_event::Event::Stop)
+;
+                        }
+                        GeneratedField::Cut => {
+                            if event__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("cut"));
+                            }
+                            event__ = map_.next_value::<::std::option::Option<_>>()?.map(take_event::Event::Cut)
+;
+                        }
+                    }
+                }
+                Ok(TakeEvent {
+                    event: event__,
+                })
+            }
+        }
+        deserializer.deserialize_struct("frontalis.v1.TakeEvent", FIELDS, GeneratedVisitor)
+    }
+}
 impl serde::Serialize for TakeFormat {
     #[allow(deprecated)]
     fn serialize<S>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error>
@@ -14041,6 +14597,636 @@ impl<'de> serde::Deserialize<'de> for TakeFormat {
         deserializer.deserialize_any(GeneratedVisitor)
     }
 }
+impl serde::Serialize for TakeHeader {
+    #[allow(deprecated)]
+    fn serialize<S>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error>
+    where
+        S: serde::Serializer,
+    {
+        use serde::ser::SerializeStruct;
+        let mut len = 0;
+        if !self.take.is_empty() {
+            len += 1;
+        }
+        if !self.session.is_empty() {
+            len += 1;
+        }
+        if self.run != 0 {
+            len += 1;
+        }
+        if !self.actor.is_empty() {
+            len += 1;
+        }
+        if self.actor_revision != 0 {
+            len += 1;
+        }
+        if !self.package_crc32c.is_empty() {
+            len += 1;
+        }
+        if self.settings.is_some() {
+            len += 1;
+        }
+        if !self.slate.is_empty() {
+            len += 1;
+        }
+        if self.number != 0 {
+            len += 1;
+        }
+        if !self.gesture.is_empty() {
+            len += 1;
+        }
+        if self.start_time.is_some() {
+            len += 1;
+        }
+        if !self.controls.is_empty() {
+            len += 1;
+        }
+        if !self.markers.is_empty() {
+            len += 1;
+        }
+        if self.next_sequence != 0 {
+            len += 1;
+        }
+        if !self.server_version.is_empty() {
+            len += 1;
+        }
+        if self.next_frame != 0 {
+            len += 1;
+        }
+        let mut struct_ser = serializer.serialize_struct("frontalis.v1.TakeHeader", len)?;
+        if !self.take.is_empty() {
+            struct_ser.serialize_field("take", &self.take)?;
+        }
+        if !self.session.is_empty() {
+            struct_ser.serialize_field("session", &self.session)?;
+        }
+        if self.run != 0 {
+            #[allow(clippy::needless_borrow)]
+            #[allow(clippy::needless_borrows_for_generic_args)]
+            struct_ser.serialize_field("run", ToString::to_string(&self.run).as_str())?;
+        }
+        if !self.actor.is_empty() {
+            struct_ser.serialize_field("actor", &self.actor)?;
+        }
+        if self.actor_revision != 0 {
+            struct_ser.serialize_field("actorRevision", &self.actor_revision)?;
+        }
+        if !self.package_crc32c.is_empty() {
+            struct_ser.serialize_field("packageCrc32c", &self.package_crc32c)?;
+        }
+        if let Some(v) = self.settings.as_ref() {
+            struct_ser.serialize_field("settings", v)?;
+        }
+        if !self.slate.is_empty() {
+            struct_ser.serialize_field("slate", &self.slate)?;
+        }
+        if self.number != 0 {
+            struct_ser.serialize_field("number", &self.number)?;
+        }
+        if !self.gesture.is_empty() {
+            struct_ser.serialize_field("gesture", &self.gesture)?;
+        }
+        if let Some(v) = self.start_time.as_ref() {
+            struct_ser.serialize_field("startTime", v)?;
+        }
+        if !self.controls.is_empty() {
+            struct_ser.serialize_field("controls", &self.controls)?;
+        }
+        if !self.markers.is_empty() {
+            struct_ser.serialize_field("markers", &self.markers)?;
+        }
+        if self.next_sequence != 0 {
+            #[allow(clippy::needless_borrow)]
+            #[allow(clippy::needless_borrows_for_generic_args)]
+            struct_ser.serialize_field("nextSequence", ToString::to_string(&self.next_sequence).as_str())?;
+        }
+        if !self.server_version.is_empty() {
+            struct_ser.serialize_field("serverVersion", &self.server_version)?;
+        }
+        if self.next_frame != 0 {
+            #[allow(clippy::needless_borrow)]
+            #[allow(clippy::needless_borrows_for_generic_args)]
+            struct_ser.serialize_field("nextFrame", ToString::to_string(&self.next_frame).as_str())?;
+        }
+        struct_ser.end()
+    }
+}
+impl<'de> serde::Deserialize<'de> for TakeHeader {
+    #[allow(deprecated)]
+    fn deserialize<D>(deserializer: D) -> std::result::Result<Self, D::Error>
+    where
+        D: serde::Deserializer<'de>,
+    {
+        const FIELDS: &[&str] = &[
+            "take",
+            "session",
+            "run",
+            "actor",
+            "actor_revision",
+            "actorRevision",
+            "package_crc32c",
+            "packageCrc32c",
+            "settings",
+            "slate",
+            "number",
+            "gesture",
+            "start_time",
+            "startTime",
+            "controls",
+            "markers",
+            "next_sequence",
+            "nextSequence",
+            "server_version",
+            "serverVersion",
+            "next_frame",
+            "nextFrame",
+        ];
+
+        #[allow(clippy::enum_variant_names)]
+        enum GeneratedField {
+            Take,
+            Session,
+            Run,
+            Actor,
+            ActorRevision,
+            PackageCrc32c,
+            Settings,
+            Slate,
+            Number,
+            Gesture,
+            StartTime,
+            Controls,
+            Markers,
+            NextSequence,
+            ServerVersion,
+            NextFrame,
+        }
+        impl<'de> serde::Deserialize<'de> for GeneratedField {
+            fn deserialize<D>(deserializer: D) -> std::result::Result<GeneratedField, D::Error>
+            where
+                D: serde::Deserializer<'de>,
+            {
+                struct GeneratedVisitor;
+
+                impl serde::de::Visitor<'_> for GeneratedVisitor {
+                    type Value = GeneratedField;
+
+                    fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                        write!(formatter, "expected one of: {:?}", &FIELDS)
+                    }
+
+                    #[allow(unused_variables)]
+                    fn visit_str<E>(self, value: &str) -> std::result::Result<GeneratedField, E>
+                    where
+                        E: serde::de::Error,
+                    {
+                        match value {
+                            "take" => Ok(GeneratedField::Take),
+                            "session" => Ok(GeneratedField::Session),
+                            "run" => Ok(GeneratedField::Run),
+                            "actor" => Ok(GeneratedField::Actor),
+                            "actorRevision" | "actor_revision" => Ok(GeneratedField::ActorRevision),
+                            "packageCrc32c" | "package_crc32c" => Ok(GeneratedField::PackageCrc32c),
+                            "settings" => Ok(GeneratedField::Settings),
+                            "slate" => Ok(GeneratedField::Slate),
+                            "number" => Ok(GeneratedField::Number),
+                            "gesture" => Ok(GeneratedField::Gesture),
+                            "startTime" | "start_time" => Ok(GeneratedField::StartTime),
+                            "controls" => Ok(GeneratedField::Controls),
+                            "markers" => Ok(GeneratedField::Markers),
+                            "nextSequence" | "next_sequence" => Ok(GeneratedField::NextSequence),
+                            "serverVersion" | "server_version" => Ok(GeneratedField::ServerVersion),
+                            "nextFrame" | "next_frame" => Ok(GeneratedField::NextFrame),
+                            _ => Err(serde::de::Error::unknown_field(value, FIELDS)),
+                        }
+                    }
+                }
+                deserializer.deserialize_identifier(GeneratedVisitor)
+            }
+        }
+        struct GeneratedVisitor;
+        impl<'de> serde::de::Visitor<'de> for GeneratedVisitor {
+            type Value = TakeHeader;
+
+            fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                formatter.write_str("struct frontalis.v1.TakeHeader")
+            }
+
+            fn visit_map<V>(self, mut map_: V) -> std::result::Result<TakeHeader, V::Error>
+                where
+                    V: serde::de::MapAccess<'de>,
+            {
+                let mut take__ = None;
+                let mut session__ = None;
+                let mut run__ = None;
+                let mut actor__ = None;
+                let mut actor_revision__ = None;
+                let mut package_crc32c__ = None;
+                let mut settings__ = None;
+                let mut slate__ = None;
+                let mut number__ = None;
+                let mut gesture__ = None;
+                let mut start_time__ = None;
+                let mut controls__ = None;
+                let mut markers__ = None;
+                let mut next_sequence__ = None;
+                let mut server_version__ = None;
+                let mut next_frame__ = None;
+                while let Some(k) = map_.next_key()? {
+                    match k {
+                        GeneratedField::Take => {
+                            if take__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("take"));
+                            }
+                            take__ = Some(map_.next_value()?);
+                        }
+                        GeneratedField::Session => {
+                            if session__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("session"));
+                            }
+                            session__ = Some(map_.next_value()?);
+                        }
+                        GeneratedField::Run => {
+                            if run__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("run"));
+                            }
+                            run__ = 
+                                Some(map_.next_value::<::pbjson::private::NumberDeserialize<_>>()?.0)
+                            ;
+                        }
+                        GeneratedField::Actor => {
+                            if actor__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("actor"));
+                            }
+                            actor__ = Some(map_.next_value()?);
+                        }
+                        GeneratedField::ActorRevision => {
+                            if actor_revision__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("actorRevision"));
+                            }
+                            actor_revision__ = 
+                                Some(map_.next_value::<::pbjson::private::NumberDeserialize<_>>()?.0)
+                            ;
+                        }
+                        GeneratedField::PackageCrc32c => {
+                            if package_crc32c__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("packageCrc32c"));
+                            }
+                            package_crc32c__ = Some(map_.next_value()?);
+                        }
+                        GeneratedField::Settings => {
+                            if settings__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("settings"));
+                            }
+                            settings__ = map_.next_value()?;
+                        }
+                        GeneratedField::Slate => {
+                            if slate__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("slate"));
+                            }
+                            slate__ = Some(map_.next_value()?);
+                        }
+                        GeneratedField::Number => {
+                            if number__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("number"));
+                            }
+                            number__ = 
+                                Some(map_.next_value::<::pbjson::private::NumberDeserialize<_>>()?.0)
+                            ;
+                        }
+                        GeneratedField::Gesture => {
+                            if gesture__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("gesture"));
+                            }
+                            gesture__ = Some(map_.next_value()?);
+                        }
+                        GeneratedField::StartTime => {
+                            if start_time__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("startTime"));
+                            }
+                            start_time__ = map_.next_value()?;
+                        }
+                        GeneratedField::Controls => {
+                            if controls__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("controls"));
+                            }
+                            controls__ = Some(map_.next_value()?);
+                        }
+                        GeneratedField::Markers => {
+                            if markers__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("markers"));
+                            }
+                            markers__ = Some(map_.next_value()?);
+                        }
+                        GeneratedField::NextSequence => {
+                            if next_sequence__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("nextSequence"));
+                            }
+                            next_sequence__ = 
+                                Some(map_.next_value::<::pbjson::private::NumberDeserialize<_>>()?.0)
+                            ;
+                        }
+                        GeneratedField::ServerVersion => {
+                            if server_version__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("serverVersion"));
+                            }
+                            server_version__ = Some(map_.next_value()?);
+                        }
+                        GeneratedField::NextFrame => {
+                            if next_frame__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("nextFrame"));
+                            }
+                            next_frame__ = 
+                                Some(map_.next_value::<::pbjson::private::NumberDeserialize<_>>()?.0)
+                            ;
+                        }
+                    }
+                }
+                Ok(TakeHeader {
+                    take: take__.unwrap_or_default(),
+                    session: session__.unwrap_or_default(),
+                    run: run__.unwrap_or_default(),
+                    actor: actor__.unwrap_or_default(),
+                    actor_revision: actor_revision__.unwrap_or_default(),
+                    package_crc32c: package_crc32c__.unwrap_or_default(),
+                    settings: settings__,
+                    slate: slate__.unwrap_or_default(),
+                    number: number__.unwrap_or_default(),
+                    gesture: gesture__.unwrap_or_default(),
+                    start_time: start_time__,
+                    controls: controls__.unwrap_or_default(),
+                    markers: markers__.unwrap_or_default(),
+                    next_sequence: next_sequence__.unwrap_or_default(),
+                    server_version: server_version__.unwrap_or_default(),
+                    next_frame: next_frame__.unwrap_or_default(),
+                })
+            }
+        }
+        deserializer.deserialize_struct("frontalis.v1.TakeHeader", FIELDS, GeneratedVisitor)
+    }
+}
+impl serde::Serialize for TakeRecenter {
+    #[allow(deprecated)]
+    fn serialize<S>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error>
+    where
+        S: serde::Serializer,
+    {
+        use serde::ser::SerializeStruct;
+        let mut len = 0;
+        if self.source != 0 {
+            len += 1;
+        }
+        let mut struct_ser = serializer.serialize_struct("frontalis.v1.TakeRecenter", len)?;
+        if self.source != 0 {
+            let v = NeutralSource::try_from(self.source)
+                .map_err(|_| serde::ser::Error::custom(format!("Invalid variant {}", self.source)))?;
+            struct_ser.serialize_field("source", &v)?;
+        }
+        struct_ser.end()
+    }
+}
+impl<'de> serde::Deserialize<'de> for TakeRecenter {
+    #[allow(deprecated)]
+    fn deserialize<D>(deserializer: D) -> std::result::Result<Self, D::Error>
+    where
+        D: serde::Deserializer<'de>,
+    {
+        const FIELDS: &[&str] = &[
+            "source",
+        ];
+
+        #[allow(clippy::enum_variant_names)]
+        enum GeneratedField {
+            Source,
+        }
+        impl<'de> serde::Deserialize<'de> for GeneratedField {
+            fn deserialize<D>(deserializer: D) -> std::result::Result<GeneratedField, D::Error>
+            where
+                D: serde::Deserializer<'de>,
+            {
+                struct GeneratedVisitor;
+
+                impl serde::de::Visitor<'_> for GeneratedVisitor {
+                    type Value = GeneratedField;
+
+                    fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                        write!(formatter, "expected one of: {:?}", &FIELDS)
+                    }
+
+                    #[allow(unused_variables)]
+                    fn visit_str<E>(self, value: &str) -> std::result::Result<GeneratedField, E>
+                    where
+                        E: serde::de::Error,
+                    {
+                        match value {
+                            "source" => Ok(GeneratedField::Source),
+                            _ => Err(serde::de::Error::unknown_field(value, FIELDS)),
+                        }
+                    }
+                }
+                deserializer.deserialize_identifier(GeneratedVisitor)
+            }
+        }
+        struct GeneratedVisitor;
+        impl<'de> serde::de::Visitor<'de> for GeneratedVisitor {
+            type Value = TakeRecenter;
+
+            fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                formatter.write_str("struct frontalis.v1.TakeRecenter")
+            }
+
+            fn visit_map<V>(self, mut map_: V) -> std::result::Result<TakeRecenter, V::Error>
+                where
+                    V: serde::de::MapAccess<'de>,
+            {
+                let mut source__ = None;
+                while let Some(k) = map_.next_key()? {
+                    match k {
+                        GeneratedField::Source => {
+                            if source__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("source"));
+                            }
+                            source__ = Some(map_.next_value::<NeutralSource>()? as i32);
+                        }
+                    }
+                }
+                Ok(TakeRecenter {
+                    source: source__.unwrap_or_default(),
+                })
+            }
+        }
+        deserializer.deserialize_struct("frontalis.v1.TakeRecenter", FIELDS, GeneratedVisitor)
+    }
+}
+impl serde::Serialize for TakeSource {
+    #[allow(deprecated)]
+    fn serialize<S>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error>
+    where
+        S: serde::Serializer,
+    {
+        use serde::ser::SerializeStruct;
+        let mut len = 0;
+        if !self.publisher.is_empty() {
+            len += 1;
+        }
+        if self.epoch != 0 {
+            len += 1;
+        }
+        if self.unit != 0 {
+            len += 1;
+        }
+        if !self.marker_names.is_empty() {
+            len += 1;
+        }
+        if self.rate_hz != 0. {
+            len += 1;
+        }
+        let mut struct_ser = serializer.serialize_struct("frontalis.v1.TakeSource", len)?;
+        if !self.publisher.is_empty() {
+            struct_ser.serialize_field("publisher", &self.publisher)?;
+        }
+        if self.epoch != 0 {
+            #[allow(clippy::needless_borrow)]
+            #[allow(clippy::needless_borrows_for_generic_args)]
+            struct_ser.serialize_field("epoch", ToString::to_string(&self.epoch).as_str())?;
+        }
+        if self.unit != 0 {
+            let v = LengthUnit::try_from(self.unit)
+                .map_err(|_| serde::ser::Error::custom(format!("Invalid variant {}", self.unit)))?;
+            struct_ser.serialize_field("unit", &v)?;
+        }
+        if !self.marker_names.is_empty() {
+            struct_ser.serialize_field("markerNames", &self.marker_names)?;
+        }
+        if self.rate_hz != 0. {
+            struct_ser.serialize_field("rateHz", &self.rate_hz)?;
+        }
+        struct_ser.end()
+    }
+}
+impl<'de> serde::Deserialize<'de> for TakeSource {
+    #[allow(deprecated)]
+    fn deserialize<D>(deserializer: D) -> std::result::Result<Self, D::Error>
+    where
+        D: serde::Deserializer<'de>,
+    {
+        const FIELDS: &[&str] = &[
+            "publisher",
+            "epoch",
+            "unit",
+            "marker_names",
+            "markerNames",
+            "rate_hz",
+            "rateHz",
+        ];
+
+        #[allow(clippy::enum_variant_names)]
+        enum GeneratedField {
+            Publisher,
+            Epoch,
+            Unit,
+            MarkerNames,
+            RateHz,
+        }
+        impl<'de> serde::Deserialize<'de> for GeneratedField {
+            fn deserialize<D>(deserializer: D) -> std::result::Result<GeneratedField, D::Error>
+            where
+                D: serde::Deserializer<'de>,
+            {
+                struct GeneratedVisitor;
+
+                impl serde::de::Visitor<'_> for GeneratedVisitor {
+                    type Value = GeneratedField;
+
+                    fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                        write!(formatter, "expected one of: {:?}", &FIELDS)
+                    }
+
+                    #[allow(unused_variables)]
+                    fn visit_str<E>(self, value: &str) -> std::result::Result<GeneratedField, E>
+                    where
+                        E: serde::de::Error,
+                    {
+                        match value {
+                            "publisher" => Ok(GeneratedField::Publisher),
+                            "epoch" => Ok(GeneratedField::Epoch),
+                            "unit" => Ok(GeneratedField::Unit),
+                            "markerNames" | "marker_names" => Ok(GeneratedField::MarkerNames),
+                            "rateHz" | "rate_hz" => Ok(GeneratedField::RateHz),
+                            _ => Err(serde::de::Error::unknown_field(value, FIELDS)),
+                        }
+                    }
+                }
+                deserializer.deserialize_identifier(GeneratedVisitor)
+            }
+        }
+        struct GeneratedVisitor;
+        impl<'de> serde::de::Visitor<'de> for GeneratedVisitor {
+            type Value = TakeSource;
+
+            fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                formatter.write_str("struct frontalis.v1.TakeSource")
+            }
+
+            fn visit_map<V>(self, mut map_: V) -> std::result::Result<TakeSource, V::Error>
+                where
+                    V: serde::de::MapAccess<'de>,
+            {
+                let mut publisher__ = None;
+                let mut epoch__ = None;
+                let mut unit__ = None;
+                let mut marker_names__ = None;
+                let mut rate_hz__ = None;
+                while let Some(k) = map_.next_key()? {
+                    match k {
+                        GeneratedField::Publisher => {
+                            if publisher__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("publisher"));
+                            }
+                            publisher__ = Some(map_.next_value()?);
+                        }
+                        GeneratedField::Epoch => {
+                            if epoch__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("epoch"));
+                            }
+                            epoch__ = 
+                                Some(map_.next_value::<::pbjson::private::NumberDeserialize<_>>()?.0)
+                            ;
+                        }
+                        GeneratedField::Unit => {
+                            if unit__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("unit"));
+                            }
+                            unit__ = Some(map_.next_value::<LengthUnit>()? as i32);
+                        }
+                        GeneratedField::MarkerNames => {
+                            if marker_names__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("markerNames"));
+                            }
+                            marker_names__ = Some(map_.next_value()?);
+                        }
+                        GeneratedField::RateHz => {
+                            if rate_hz__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("rateHz"));
+                            }
+                            rate_hz__ = 
+                                Some(map_.next_value::<::pbjson::private::NumberDeserialize<_>>()?.0)
+                            ;
+                        }
+                    }
+                }
+                Ok(TakeSource {
+                    publisher: publisher__.unwrap_or_default(),
+                    epoch: epoch__.unwrap_or_default(),
+                    unit: unit__.unwrap_or_default(),
+                    marker_names: marker_names__.unwrap_or_default(),
+                    rate_hz: rate_hz__.unwrap_or_default(),
+                })
+            }
+        }
+        deserializer.deserialize_struct("frontalis.v1.TakeSource", FIELDS, GeneratedVisitor)
+    }
+}
 impl serde::Serialize for TakeState {
     #[allow(deprecated)]
     fn serialize<S>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error>
@@ -14122,6 +15308,142 @@ impl<'de> serde::Deserialize<'de> for TakeState {
             }
         }
         deserializer.deserialize_any(GeneratedVisitor)
+    }
+}
+impl serde::Serialize for TakeStop {
+    #[allow(deprecated)]
+    fn serialize<S>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error>
+    where
+        S: serde::Serializer,
+    {
+        use serde::ser::SerializeStruct;
+        let mut len = 0;
+        if self.stop_time.is_some() {
+            len += 1;
+        }
+        if self.n_frames != 0 {
+            len += 1;
+        }
+        if self.n_samples != 0 {
+            len += 1;
+        }
+        let mut struct_ser = serializer.serialize_struct("frontalis.v1.TakeStop", len)?;
+        if let Some(v) = self.stop_time.as_ref() {
+            struct_ser.serialize_field("stopTime", v)?;
+        }
+        if self.n_frames != 0 {
+            #[allow(clippy::needless_borrow)]
+            #[allow(clippy::needless_borrows_for_generic_args)]
+            struct_ser.serialize_field("nFrames", ToString::to_string(&self.n_frames).as_str())?;
+        }
+        if self.n_samples != 0 {
+            #[allow(clippy::needless_borrow)]
+            #[allow(clippy::needless_borrows_for_generic_args)]
+            struct_ser.serialize_field("nSamples", ToString::to_string(&self.n_samples).as_str())?;
+        }
+        struct_ser.end()
+    }
+}
+impl<'de> serde::Deserialize<'de> for TakeStop {
+    #[allow(deprecated)]
+    fn deserialize<D>(deserializer: D) -> std::result::Result<Self, D::Error>
+    where
+        D: serde::Deserializer<'de>,
+    {
+        const FIELDS: &[&str] = &[
+            "stop_time",
+            "stopTime",
+            "n_frames",
+            "nFrames",
+            "n_samples",
+            "nSamples",
+        ];
+
+        #[allow(clippy::enum_variant_names)]
+        enum GeneratedField {
+            StopTime,
+            NFrames,
+            NSamples,
+        }
+        impl<'de> serde::Deserialize<'de> for GeneratedField {
+            fn deserialize<D>(deserializer: D) -> std::result::Result<GeneratedField, D::Error>
+            where
+                D: serde::Deserializer<'de>,
+            {
+                struct GeneratedVisitor;
+
+                impl serde::de::Visitor<'_> for GeneratedVisitor {
+                    type Value = GeneratedField;
+
+                    fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                        write!(formatter, "expected one of: {:?}", &FIELDS)
+                    }
+
+                    #[allow(unused_variables)]
+                    fn visit_str<E>(self, value: &str) -> std::result::Result<GeneratedField, E>
+                    where
+                        E: serde::de::Error,
+                    {
+                        match value {
+                            "stopTime" | "stop_time" => Ok(GeneratedField::StopTime),
+                            "nFrames" | "n_frames" => Ok(GeneratedField::NFrames),
+                            "nSamples" | "n_samples" => Ok(GeneratedField::NSamples),
+                            _ => Err(serde::de::Error::unknown_field(value, FIELDS)),
+                        }
+                    }
+                }
+                deserializer.deserialize_identifier(GeneratedVisitor)
+            }
+        }
+        struct GeneratedVisitor;
+        impl<'de> serde::de::Visitor<'de> for GeneratedVisitor {
+            type Value = TakeStop;
+
+            fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                formatter.write_str("struct frontalis.v1.TakeStop")
+            }
+
+            fn visit_map<V>(self, mut map_: V) -> std::result::Result<TakeStop, V::Error>
+                where
+                    V: serde::de::MapAccess<'de>,
+            {
+                let mut stop_time__ = None;
+                let mut n_frames__ = None;
+                let mut n_samples__ = None;
+                while let Some(k) = map_.next_key()? {
+                    match k {
+                        GeneratedField::StopTime => {
+                            if stop_time__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("stopTime"));
+                            }
+                            stop_time__ = map_.next_value()?;
+                        }
+                        GeneratedField::NFrames => {
+                            if n_frames__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("nFrames"));
+                            }
+                            n_frames__ = 
+                                Some(map_.next_value::<::pbjson::private::NumberDeserialize<_>>()?.0)
+                            ;
+                        }
+                        GeneratedField::NSamples => {
+                            if n_samples__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("nSamples"));
+                            }
+                            n_samples__ = 
+                                Some(map_.next_value::<::pbjson::private::NumberDeserialize<_>>()?.0)
+                            ;
+                        }
+                    }
+                }
+                Ok(TakeStop {
+                    stop_time: stop_time__,
+                    n_frames: n_frames__.unwrap_or_default(),
+                    n_samples: n_samples__.unwrap_or_default(),
+                })
+            }
+        }
+        deserializer.deserialize_struct("frontalis.v1.TakeStop", FIELDS, GeneratedVisitor)
     }
 }
 impl serde::Serialize for Timecode {
