@@ -16,6 +16,7 @@ mod marker_frames;
 mod memory;
 mod messages;
 mod names;
+mod neutral_faces;
 mod origin;
 mod packages_glb;
 mod positions;
