@@ -16,6 +16,7 @@ mod marker_frames;
 mod memory;
 mod messages;
 mod names;
+mod neutral_faces;
 mod origin;
 mod packages_glb;
 mod positions;
@@ -25,7 +26,9 @@ mod resources;
 mod solver_options;
 mod tls;
 mod websocket;
+mod wrong_markers;
 
+use frontalis_proto::v1::{CurveSample, MarkerFrame};
 use frontalis_server::config::Config;
 use harness::{ControlSession, Publisher, Subscriber, TestPerformance, TestServer, every_frame};
 
@@ -61,6 +64,28 @@ impl Stage {
         let samples = subscriber.samples_through(GOOD_FRAMES).await.unwrap();
         assert_eq!(samples.len() as u64, GOOD_FRAMES);
         subscriber
+    }
+
+    /// The samples that these frames, numbered from 1, give in a new session: all are accepted, each gives one.
+    async fn samples_of(&self, id: &str, frames: Vec<MarkerFrame>) -> Vec<CurveSample> {
+        let n_frames = frames.len() as u64;
+        let created = self.server.create_session(id, "actors/reference").await;
+        let session = created.unwrap().name;
+        let start = self.performance.start(&session, "camera-1");
+        let mut publisher = Publisher::open(&self.server, start).await.unwrap();
+        publisher.publish(frames).await;
+        assert_eq!(publisher.report().rejections(), []);
+        let every = every_frame(&session);
+        let mut subscriber = Subscriber::open(&self.server, every).await.unwrap();
+        let samples = subscriber.samples_through(n_frames).await.unwrap();
+        assert_eq!(samples.len() as u64, n_frames);
+        samples
+    }
+
+    /// The place of a marker in the stream.
+    fn marker(&self, name: &str) -> usize {
+        let mut names = self.performance.marker_names().iter();
+        names.position(|it| it == name).unwrap()
     }
 }
 

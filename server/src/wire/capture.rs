@@ -190,8 +190,9 @@ impl BadCoordinate {
         match self {
             Self::Infinite { axis } => format!("marker {idx} ({name}): {} is infinite", AXES[axis]),
             Self::OutOfVolume { axis } => format!(
-                "marker {idx} ({name}): {} lies more than 10 m from the origin",
-                AXES[axis]
+                "marker {idx} ({name}): {} lies more than 10 m from the origin, read in {}",
+                AXES[axis],
+                shape.unit.symbol()
             ),
         }
     }
