@@ -14,6 +14,24 @@ pub use standard::StdFs;
 /// Suffix of a file that is not yet complete; whatever carries it after a crash is removed.
 pub const TEMPORARY_SUFFIX: &str = ".tmp";
 
+/// A file that only grows.
+pub trait AppendFile: Debug + Send {
+    /// Adds to the end.
+    ///
+    /// # Errors
+    ///
+    /// As the system says; part of `bytes` may have been added.
+    fn append(&mut self, bytes: &[u8]) -> io::Result<()>;
+
+    /// Flushes what was added to the disk. After an error nothing is known of what was not flushed before: the file is not
+    /// to be used again (CONTRACTS U-8).
+    ///
+    /// # Errors
+    ///
+    /// As the system says.
+    fn sync(&mut self) -> io::Result<()>;
+}
+
 /// File system calls, each of which may fail by itself.
 pub trait Fs: Debug + Send + Sync {
     /// Makes `dir` and its parents, unless they exist. A symbolic link in its place is refused.
@@ -36,6 +54,34 @@ pub trait Fs: Debug + Send + Sync {
     ///
     /// As the system says.
     fn write_and_sync(&self, file: &Path, content: &[u8]) -> io::Result<()>;
+
+    /// Makes a new, empty file to append to; one of that name that exists is an error.
+    ///
+    /// # Errors
+    ///
+    /// As the system says.
+    fn create(&self, file: &Path) -> io::Result<Box<dyn AppendFile>>;
+
+    /// Reads from `offset` on into `buffer`; returns how many bytes, 0 at the end. A symbolic link is refused.
+    ///
+    /// # Errors
+    ///
+    /// As the system says.
+    fn read_at(&self, file: &Path, offset: u64, buffer: &mut [u8]) -> io::Result<usize>;
+
+    /// Length of a file, bytes.
+    ///
+    /// # Errors
+    ///
+    /// As the system says.
+    fn size(&self, file: &Path) -> io::Result<u64>;
+
+    /// Bytes that may still be written under `dir`.
+    ///
+    /// # Errors
+    ///
+    /// As the system says.
+    fn free_bytes(&self, dir: &Path) -> io::Result<u64>;
 
     /// Gives `from` the name `to`, in place of a file of that name.
     ///

@@ -15,6 +15,7 @@ pub mod reload;
 pub mod service;
 pub mod session;
 pub mod shutdown;
+pub mod take;
 pub mod telemetry;
 pub mod wire;
 

@@ -112,6 +112,11 @@ identifier!(
     ActorId, "actor", "actors"
 );
 
+identifier!(
+    /// Identity of a take; cheap to clone.
+    TakeId, "take", "takes"
+);
+
 /// Stable identity of a capture client: 1 to 64 of `[A-Za-z0-9._-]`; cheap to clone.
 #[derive(Clone, Debug, PartialEq, Eq, Hash)]
 pub struct PublisherId(Arc<str>);

@@ -17,6 +17,7 @@ mod pipeline;
 mod publication;
 mod queue;
 mod rate;
+mod recording;
 mod registry;
 mod settings;
 mod shared;
@@ -29,6 +30,7 @@ pub use handle::SessionHandle;
 pub use publication::{
     Claim, Grant, Granted, Ingest, Offer, Publication, PublishEnd, Wait, Watermarks,
 };
+pub use recording::{Recorded, RecordedFrame, RecordedSource, RecordingFeed};
 pub use registry::SessionRegistry;
 pub use settings::{
     RestoredAlignment, SessionEvent, SessionLimits, SessionSettings, SessionSpec, SessionUpdate,

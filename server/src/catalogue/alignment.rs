@@ -26,11 +26,21 @@ pub struct StoredAlignment {
 }
 
 impl StoredAlignment {
-    pub(super) fn to_text(&self) -> Result<String, CatalogueError> {
+    /// As it is stored, and as a take's file holds it.
+    ///
+    /// # Errors
+    ///
+    /// When a number is not finite.
+    pub fn to_text(&self) -> Result<String, CatalogueError> {
         serde_json::to_string(&Record::from(self)).map_err(|_| UNREADABLE)
     }
 
-    pub(super) fn from_text(text: &str) -> Result<Self, CatalogueError> {
+    /// What [`Self::to_text`] wrote.
+    ///
+    /// # Errors
+    ///
+    /// When it is something else.
+    pub fn from_text(text: &str) -> Result<Self, CatalogueError> {
         let record: Record = serde_json::from_str(text).map_err(|_| UNREADABLE)?;
         record.try_into()
     }

@@ -8,7 +8,7 @@ use std::{
     sync::{Arc, Mutex, MutexGuard, PoisonError},
 };
 
-use super::Fs;
+use super::{AppendFile, Fs};
 
 /// Files of one process, gone with it; clones share the same files.
 ///
@@ -19,11 +19,41 @@ pub struct MemFs(Arc<Mutex<State>>);
 
 #[derive(Debug, Default)]
 struct State {
-    files: BTreeMap<PathBuf, Vec<u8>>,
+    files: BTreeMap<PathBuf, Content>,
     changes_left: Option<usize>,
 }
 
+/// What a file holds, and how much of it is known to have reached the disk.
+#[derive(Clone, Debug, Default)]
+struct Content {
+    bytes: Vec<u8>,
+    n_synced: usize,
+}
+
+impl Content {
+    fn synced(bytes: &[u8]) -> Self {
+        Self {
+            n_synced: bytes.len(),
+            bytes: bytes.to_vec(),
+        }
+    }
+}
+
 impl MemFs {
+    /// The files as they are after the power went: of every file what was flushed, and of the rest what `torn` lets stand.
+    ///
+    /// `torn` gets the name and the bytes that were not flushed, and returns those that are found in their place.
+    #[must_use]
+    pub fn after_power_cut(&self, mut torn: impl FnMut(&Path, &[u8]) -> Vec<u8>) -> Self {
+        let after = Self::default();
+        for (name, content) in &self.state().files {
+            let (synced, rest) = content.bytes.split_at(content.n_synced);
+            let bytes = [synced, &torn(name, rest)].concat();
+            after.state().files.insert(name.clone(), Content::synced(&bytes));
+        }
+        after
+    }
+
     /// Lets `n_changes` more calls change something; all later ones fail, until `None` lifts it.
     pub fn fail_after(&self, n_changes: Option<usize>) {
         self.state().changes_left = n_changes;
@@ -50,15 +80,48 @@ impl Fs for MemFs {
     }
 
     fn read(&self, file: &Path) -> io::Result<Vec<u8>> {
-        let found = self.state().files.get(file).cloned();
+        let state = self.state();
+        let found = state.files.get(file).map(|it| it.bytes.clone());
         found.ok_or_else(|| io::ErrorKind::NotFound.into())
     }
 
     fn write_and_sync(&self, file: &Path, content: &[u8]) -> io::Result<()> {
         self.change()?
             .files
-            .insert(file.to_owned(), content.to_vec());
+            .insert(file.to_owned(), Content::synced(content));
         Ok(())
+    }
+
+    fn create(&self, file: &Path) -> io::Result<Box<dyn AppendFile>> {
+        let mut state = self.change()?;
+        if state.files.contains_key(file) {
+            return Err(io::ErrorKind::AlreadyExists.into());
+        }
+        state.files.insert(file.to_owned(), Content::default());
+        Ok(Box::new(Growing {
+            fs: self.clone(),
+            file: file.to_owned(),
+        }))
+    }
+
+    fn read_at(&self, file: &Path, offset: u64, buffer: &mut [u8]) -> io::Result<usize> {
+        let state = self.state();
+        let content = state.files.get(file).ok_or(io::ErrorKind::NotFound)?;
+        let offset = usize::try_from(offset).unwrap_or(usize::MAX);
+        let rest = content.bytes.get(offset..).unwrap_or_default();
+        let n_bytes = rest.len().min(buffer.len());
+        buffer[..n_bytes].copy_from_slice(&rest[..n_bytes]);
+        Ok(n_bytes)
+    }
+
+    fn size(&self, file: &Path) -> io::Result<u64> {
+        let state = self.state();
+        let content = state.files.get(file).ok_or(io::ErrorKind::NotFound)?;
+        Ok(content.bytes.len() as u64)
+    }
+
+    fn free_bytes(&self, _dir: &Path) -> io::Result<u64> {
+        Ok(u64::MAX)
     }
 
     fn rename(&self, from: &Path, to: &Path) -> io::Result<()> {
@@ -83,5 +146,31 @@ impl Fs for MemFs {
         Ok(inside
             .filter_map(|it| it.file_name().map(OsString::from))
             .collect())
+    }
+}
+
+/// A file of memory that is appended to.
+#[derive(Debug)]
+struct Growing {
+    fs: MemFs,
+    file: PathBuf,
+}
+
+impl Growing {
+    fn change(&self, with: impl FnOnce(&mut Content)) -> io::Result<()> {
+        let mut state = self.fs.change()?;
+        let content = state.files.get_mut(&self.file);
+        with(content.ok_or(io::ErrorKind::NotFound)?);
+        Ok(())
+    }
+}
+
+impl AppendFile for Growing {
+    fn append(&mut self, bytes: &[u8]) -> io::Result<()> {
+        self.change(|it| it.bytes.extend_from_slice(bytes))
+    }
+
+    fn sync(&mut self) -> io::Result<()> {
+        self.change(|it| it.n_synced = it.bytes.len())
     }
 }

@@ -3,11 +3,11 @@
 use std::{
     ffi::OsString,
     fs::{self, DirBuilder, File, OpenOptions},
-    io::{self, Write as _},
+    io::{self, Read as _, Seek as _, SeekFrom, Write as _},
     path::Path,
 };
 
-use super::Fs;
+use super::{AppendFile, Fs};
 
 /// The operating system's file system.
 #[derive(Clone, Copy, Debug, Default)]
@@ -32,6 +32,31 @@ impl Fs for StdFs {
         new.sync_all()
     }
 
+    fn create(&self, file: &Path) -> io::Result<Box<dyn AppendFile>> {
+        let new = OpenOptions::new()
+            .append(true)
+            .create_new(true)
+            .open(file)?;
+        Ok(Box::new(Growing(new)))
+    }
+
+    fn read_at(&self, file: &Path, offset: u64, buffer: &mut [u8]) -> io::Result<usize> {
+        refuse_link(file)?;
+        let mut open = File::open(file)?;
+        open.seek(SeekFrom::Start(offset))?;
+        open.read(buffer)
+    }
+
+    fn size(&self, file: &Path) -> io::Result<u64> {
+        refuse_link(file)?;
+        Ok(fs::metadata(file)?.len())
+    }
+
+    fn free_bytes(&self, dir: &Path) -> io::Result<u64> {
+        let found = rustix::fs::statvfs(dir)?;
+        Ok(found.f_bavail.saturating_mul(found.f_frsize))
+    }
+
     fn rename(&self, from: &Path, to: &Path) -> io::Result<()> {
         fs::rename(from, to)
     }
@@ -53,6 +78,20 @@ impl Fs for StdFs {
             .collect::<io::Result<Vec<_>>>()?;
         names.sort();
         Ok(names)
+    }
+}
+
+/// A file that is open for appending.
+#[derive(Debug)]
+struct Growing(File);
+
+impl AppendFile for Growing {
+    fn append(&mut self, bytes: &[u8]) -> io::Result<()> {
+        self.0.write_all(bytes)
+    }
+
+    fn sync(&mut self) -> io::Result<()> {
+        self.0.sync_data()
     }
 }
 

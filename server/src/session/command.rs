@@ -10,6 +10,7 @@ use tokio::sync::oneshot;
 
 use super::{
     mailbox::Mailbox,
+    recording::Recorded,
     settings::{SessionSettings, StreamShape},
 };
 
@@ -34,6 +35,24 @@ pub(super) enum Command {
     },
     /// Nothing follows.
     End,
+}
+
+impl Command {
+    /// The command as a recording holds it, if it changes how frames are solved.
+    pub(super) fn recorded(&self) -> Option<Recorded> {
+        match self {
+            Self::Update {
+                settings,
+                actor_revision,
+                ..
+            } => Some(Recorded::Change {
+                settings: Box::new(settings.clone()),
+                actor_revision: *actor_revision,
+            }),
+            Self::Recenter { source, .. } => Some(Recorded::Recenter(*source)),
+            Self::Source(_) | Self::Finish(_) | Self::End => None,
+        }
+    }
 }
 
 /// Where frames come from.

@@ -1,5 +1,6 @@
 //! A frame on its way into a session, and the answer to one that cannot be used.
 
+use bytes::Bytes;
 use frontalis_analysis::space::PerformancePoint;
 
 use crate::hub::SampleTag;
@@ -19,12 +20,16 @@ pub struct IncomingFrame {
     pub content_hash: u64,
     /// Markers of which only one or two coordinates were missing.
     pub n_partial_markers: usize,
+    /// The message that brought it, for whoever records it.
+    pub sent: Bytes,
 }
 
 impl IncomingFrame {
     /// Bytes of memory that the frame holds while it waits.
     pub(super) fn cost_bytes(&self) -> usize {
-        size_of::<Self>() + self.positions.capacity() * size_of::<Option<PerformancePoint>>()
+        size_of::<Self>()
+            + self.sent.len()
+            + self.positions.capacity() * size_of::<Option<PerformancePoint>>()
     }
 }
 

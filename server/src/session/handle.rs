@@ -10,6 +10,7 @@ use super::{
     error::SessionError,
     intake::Closed,
     publication::{Claim, Grant, Granted, Publication},
+    recording::RecordingFeed,
     settings::{SessionSettings, SessionUpdate, StreamShape},
     shared::Shared,
     status::{SessionStatus, StageLatency},
@@ -147,6 +148,30 @@ impl SessionHandle {
         let (done, is_done) = oneshot::channel();
         self.ask(Command::Recenter { source, done })?;
         Ok(self.answered(is_done).await??)
+    }
+
+    /// Hands everything on that comes in from now on, before it is acknowledged; an earlier recording ends.
+    ///
+    /// # Errors
+    ///
+    /// [`SessionError`] when the session takes no requests any more.
+    pub fn record(&self) -> Result<RecordingFeed, SessionError> {
+        self.shared.intake().record()
+    }
+
+    /// Hands on nothing more.
+    pub fn stop_recording(&self) {
+        self.shared.intake().stop_recording();
+    }
+
+    /// Whether somebody records it.
+    pub fn is_recorded(&self) -> bool {
+        self.shared.intake().is_recorded()
+    }
+
+    /// Every frame up to `number` is on stable storage: publishers are told.
+    pub fn set_durable_through(&self, number: u64) {
+        self.shared.intake().set_durable_through(number);
     }
 
     fn ask(&self, command: Command) -> Result<(), SessionError> {

@@ -4,7 +4,10 @@
 //! Every frame is checked against the epoch of the lease, so that a fenced publisher has no effect (D-29).
 //! Kept under one std mutex by the session; pure, times are handed in.
 
-use std::{sync::Arc, time::Duration};
+use std::{
+    sync::{Arc, Weak},
+    time::Duration,
+};
 
 use super::{
     command::{Command, Source},
@@ -13,6 +16,7 @@ use super::{
     mailbox::Mailbox,
     order::{FrameOrder, Verdict},
     publication::{Claim, Grant, Ingest, Offer, PublishEnd, Wait},
+    recording::{Recorded, RecordedFrame, RecordedSource, RecordingFeed, RecordingTap, recording},
     queue::{MAX_WAITING_COMMANDS, WaitingFrame, Work, WorkQueue},
     rate::{Admission, RateLimit, RateMeter},
     settings::StreamShape,
@@ -114,6 +118,12 @@ pub(super) struct Intake {
     meter: RateMeter,
     counts: IntakeCounts,
     closed: Option<Closed>,
+    /// Who publishes, for a recording that begins later.
+    source: Option<RecordedSource>,
+    recording: Option<RecordingTap>,
+    /// Of whoever published last.
+    last_mailbox: Weak<Mailbox>,
+    durable_through: u64,
     pub(super) publisher_timeout: Duration,
 }
 
@@ -130,7 +140,64 @@ impl Intake {
             meter: RateMeter::default(),
             counts: IntakeCounts::default(),
             closed: None,
+            source: None,
+            recording: None,
+            last_mailbox: Weak::new(),
+            durable_through: 0,
             publisher_timeout,
+        }
+    }
+
+    /// Hands on all that comes in from now on; an earlier recording ends.
+    pub(super) fn record(&mut self) -> Result<RecordingFeed, SessionError> {
+        self.check_open()?;
+        let (tap, feed) = recording(self.order.next_expected().max(1));
+        if let Some(source) = &self.source {
+            tap.record(Recorded::Source(source.clone()));
+        }
+        self.durable_through = self.order.accepted_through();
+        self.recording = Some(tap);
+        Ok(feed)
+    }
+
+    /// Hands on nothing more.
+    pub(super) fn stop_recording(&mut self) {
+        self.recording = None;
+        self.wake_publisher();
+    }
+
+    pub(super) fn is_recorded(&self) -> bool {
+        self.recording.is_some()
+    }
+
+    /// Every frame up to this one is on stable storage.
+    pub(super) fn set_durable_through(&mut self, number: u64) {
+        self.durable_through = self.durable_through.max(number);
+        self.wake_publisher();
+    }
+
+    pub(super) fn durable_through(&self) -> u64 {
+        if self.recording.is_some() {
+            self.durable_through
+        } else {
+            0
+        }
+    }
+
+    /// Whoever published last may wait for room, or, its frames given, for stable storage.
+    fn wake_publisher(&mut self) {
+        if let Some(lease) = &mut self.lease {
+            lease.waits_for_space = false;
+        }
+        if let Some(mailbox) = self.last_mailbox.upgrade() {
+            mailbox.wake();
+        }
+    }
+
+    /// Hands on a request where it takes effect among the frames.
+    pub(super) fn note(&self, recorded: Recorded) {
+        if let Some(tap) = &self.recording {
+            tap.record(recorded);
         }
     }
 
@@ -177,6 +244,7 @@ impl Intake {
         let owner = Owner::of(&grant.claim);
         self.note_owner(&owner);
         let mailbox = Arc::new(Mailbox::new(grant.epoch));
+        self.last_mailbox = Arc::downgrade(&mailbox);
         self.lease = Some(Lease {
             owner,
             mailbox: Arc::clone(&mailbox),
@@ -185,6 +253,14 @@ impl Intake {
             n_rejects_in_a_row: 0,
             waits_for_space: false,
         });
+        let source = RecordedSource {
+            publisher: grant.claim.publisher.clone(),
+            epoch: grant.epoch,
+            shape: shape.clone(),
+            rate_hz: grant.rate_hz,
+        };
+        self.note(Recorded::Source(source.clone()));
+        self.source = Some(source);
         self.queue.push_command(Command::Source(Source {
             shape,
             rate_hz: grant.rate_hz,
@@ -229,6 +305,7 @@ impl Intake {
             }
             // A late frame is no mistake of the publisher: it does not count towards the limit in a row.
             Verdict::Late => {
+                self.note_frame(&frame, now_nanos, true);
                 self.counts.late += 1;
                 self.counts.rejected += 1;
                 let detail = format!("frame {} was already passed", self.order.accepted_through());
@@ -256,6 +333,11 @@ impl Intake {
         let Some(lease) = &mut self.lease else {
             return Err(self.lost());
         };
+        if self.recording.as_ref().is_some_and(|it| !it.has_room()) {
+            // What cannot be recorded is not taken, however live it is: an acknowledged frame is in the take.
+            lease.waits_for_space = true;
+            return Ok(Offer::Wait(frame, Wait::Space));
+        }
         match lease.ingest {
             Ingest::Lossless if !self.queue.has_room(cost_bytes) => {
                 lease.waits_for_space = true;
@@ -306,11 +388,23 @@ impl Intake {
         if let Some(lease) = &mut self.lease {
             lease.n_rejects_in_a_row = 0;
         }
+        self.note_frame(&frame, now_nanos, false);
         self.queue.push_frame(WaitingFrame {
             frame,
             gaps_before,
             received_nanos: now_nanos,
         });
+    }
+
+    fn note_frame(&self, frame: &IncomingFrame, received_nanos: i64, is_late: bool) {
+        if let Some(tap) = &self.recording {
+            tap.record(Recorded::Frame(RecordedFrame {
+                number: frame.number,
+                received_nanos,
+                sent: frame.sent.clone(),
+                is_late,
+            }));
+        }
     }
 
     /// Counts a frame that cannot be used; ends the publication after too many in a row.
@@ -398,6 +492,9 @@ impl Intake {
     pub(super) fn command(&mut self, command: Command) -> Result<(), SessionError> {
         self.check_open()?;
         self.check_room_for_a_command()?;
+        if let Some(recorded) = command.recorded() {
+            self.note(recorded);
+        }
         self.queue.push_command(command);
         Ok(())
     }
@@ -428,6 +525,7 @@ impl Intake {
         if let Some(lease) = self.lease.take() {
             lease.mailbox.end(closed.publish_end());
         }
+        self.recording = None;
         if closed == Closed::Ended {
             let trailing = self.order.finish();
             self.queue.push_gaps(trailing);

@@ -121,6 +121,8 @@ pub struct Watermarks {
     pub durable_through: u64,
     /// Frames taken but not solved.
     pub shed_frames: u64,
+    /// Whether frames are recorded now.
+    pub is_recorded: bool,
 }
 
 /// A publisher's hold on a session. Dropping it keeps the lease until it times out; [`Self::release`] gives it back.
@@ -191,7 +193,8 @@ impl Publication {
         let intake = self.session.intake();
         Watermarks {
             accepted_through: intake.accepted_through(),
-            durable_through: 0,
+            durable_through: intake.durable_through(),
+            is_recorded: intake.is_recorded(),
             shed_frames: intake.counts().shed,
         }
     }
@@ -210,9 +213,10 @@ impl Publication {
         self.session.work.notify_one();
     }
 
-    /// Whether all frames of a released publication are done.
+    /// Whether all frames of a released publication are done, and on stable storage where they are recorded.
     pub fn is_finished(&self) -> bool {
-        self.mailbox.is_finished()
+        let is_safe = |it: Watermarks| !it.is_recorded || it.durable_through >= it.accepted_through;
+        self.mailbox.is_finished() && is_safe(self.watermarks())
     }
 
     /// Waits until there may be news: room, a rejection, the end. Nothing is lost when the future is dropped.

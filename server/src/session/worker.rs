@@ -23,6 +23,7 @@ use super::{
     pipeline::{Outcome, Pipeline, Step},
     publication::PublishEnd,
     queue::{WaitingFrame, Work},
+    recording::Recorded,
     settings::{SessionEvent, SessionSpec},
     shared::Shared,
 };
@@ -261,6 +262,11 @@ impl Worker {
             shape: shape.clone(),
             actor_revision: self.actor_revision,
         };
+        self.shared.intake().note(Recorded::Aligned {
+            alignment: Box::new(alignment.clone()),
+            shape: shape.clone(),
+            actor_revision: self.actor_revision,
+        });
         self.judge();
         self.shared.tell(event).await;
     }

@@ -9,6 +9,7 @@ use std::{
 
 use frontalis_analysis::space::{LengthUnit, PerformancePoint};
 use frontalis_proto::v1;
+use prost::Message as _;
 
 use super::{
     common,
@@ -166,6 +167,7 @@ pub fn frame(sent: &v1::MarkerFrame, shape: &StreamShape) -> Result<IncomingFram
         },
         content_hash: content_hash(sent),
         n_partial_markers,
+        sent: sent.encode_to_vec().into(),
     })
 }
 

@@ -31,6 +31,15 @@ pub fn length_unit(field: &'static str, number: i32) -> Result<LengthUnit, Field
     }
 }
 
+/// The unit's number on the wire.
+pub fn length_unit_to_wire(unit: LengthUnit) -> v1::LengthUnit {
+    match unit {
+        LengthUnit::Millimeter => v1::LengthUnit::Millimeter,
+        LengthUnit::Centimeter => v1::LengthUnit::Centimeter,
+        LengthUnit::Meter => v1::LengthUnit::Meter,
+    }
+}
+
 /// The region's number on the wire.
 pub fn face_region(region: FaceRegion) -> v1::FaceRegion {
     match region {

@@ -206,7 +206,8 @@ pub fn end_to_wire(reason: String, last_frame: u64, skipped_samples: u64) -> v1:
     }
 }
 
-fn state_to_wire(state: &StreamState) -> v1::StreamState {
+/// A state on the wire.
+pub fn state_to_wire(state: &StreamState) -> v1::StreamState {
     v1::StreamState {
         session_state: common::session_state(state.session_state).into(),
         last_frame_age_micros: state.last_frame_age_nanos.unsigned_abs() / 1_000,

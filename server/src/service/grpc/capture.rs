@@ -216,9 +216,9 @@ where
             .await?;
         let mut flow = Flow::new(publication, self.service.clock);
         flow.take_frames(request.frames)?;
-        let started = started(flow.publication.granted());
+        let granted = flow.publication.granted().clone();
         let mut response = flow.response();
-        response.started = Some(started);
+        response.started = Some(started(&granted, response.durable_through));
         self.phase = Phase::Flowing(Box::new(flow));
         Ok(response)
     }
@@ -234,11 +234,11 @@ fn takes_over(first: &Result<v1::PublishMarkersRequest, Status>) -> bool {
     }
 }
 
-fn started(granted: &Granted) -> v1::PublishStarted {
+fn started(granted: &Granted, durable_through: u64) -> v1::PublishStarted {
     v1::PublishStarted {
         epoch: granted.epoch,
         next_expected: granted.next_expected,
-        durable_through: 0,
+        durable_through,
         run: granted.run,
     }
 }
@@ -253,6 +253,8 @@ struct Flow {
     held: Option<(IncomingFrame, Wait)>,
     rejected: Vec<v1::RejectedFrame>,
     n_unanswered: u32,
+    /// What the client knows to be on stable storage.
+    told_durable: u64,
     respond_at: Option<Instant>,
     /// The client closed its side.
     is_closing: bool,
@@ -269,6 +271,7 @@ impl Flow {
             held: None,
             rejected: Vec::new(),
             n_unanswered: 0,
+            told_durable: 0,
             respond_at: None,
             is_closing: false,
             end: None,
@@ -349,6 +352,7 @@ impl Flow {
     fn must_respond(&self) -> bool {
         self.n_unanswered >= FRAMES_PER_RESPONSE
             || self.rejected.len() >= REJECTIONS_PER_RESPONSE
+            || self.publication.watermarks().durable_through > self.told_durable
             || self.respond_at.is_some_and(|it| it <= Instant::now())
     }
 
@@ -358,6 +362,7 @@ impl Flow {
         let unoffered = self.held.is_some() || self.waiting.len() > 0;
         self.respond_at = unoffered.then(|| Instant::now() + RESPONSE_DELAY);
         let watermarks = self.publication.watermarks();
+        self.told_durable = watermarks.durable_through;
         let n_rejected = self.rejected.len().min(REJECTIONS_PER_RESPONSE);
         v1::PublishResponse {
             started: None,
@@ -366,7 +371,7 @@ impl Flow {
             rejected: self.rejected.drain(..n_rejected).collect(),
             shed_frames: watermarks.shed_frames,
             server_send_nanos: self.clock.now_nanos(),
-            recording: false,
+            recording: watermarks.is_recorded,
         }
     }
 

@@ -18,6 +18,7 @@ fn waiting(number: u64) -> WaitingFrame {
             tag: SampleTag::default(),
             content_hash: 0,
             n_partial_markers: 0,
+            sent: bytes::Bytes::new(),
         },
         gaps_before: Vec::new(),
         received_nanos: 0,

@@ -1,0 +1,20 @@
+//! Takes: what was captured and what was solved, in one MCAP file each, on stable storage before it is acknowledged.
+//!
+//! A file grows by one checked chunk a commit, and is put into large compressed chunks with an index when its take is over.
+//! Any MCAP tool reads it, while it grows and afterwards.
+
+mod channel;
+mod chunk;
+mod events;
+mod figures;
+mod open_take;
+mod recorder;
+mod rewrite;
+mod scan;
+mod scribe;
+
+pub use figures::TakeFigures;
+pub use open_take::Condition;
+pub use recorder::{EndedTake, Recorder, StartError, TakeUnderWay};
+pub use rewrite::{RewriteError, Rewritten};
+pub use scan::ScanError;

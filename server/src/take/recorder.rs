@@ -1,0 +1,335 @@
+//! Records takes: one scribe a take, and one committer that puts what all of them wrote on stable storage together.
+//!
+//! Commits of several files run side by side, since a disk flushes them in one go (CONTRACTS U-2).
+
+use std::{
+    collections::BTreeMap,
+    io,
+    path::PathBuf,
+    sync::{Arc, Mutex, MutexGuard, PoisonError},
+    time::Duration,
+};
+
+use frontalis_proto::v1::{self, take_event::Event};
+use futures::StreamExt as _;
+use tokio::sync::{Notify, watch};
+use tokio_util::{sync::CancellationToken, task::TaskTracker};
+
+use super::{
+    figures::TakeFigures,
+    open_take::{Condition, OpenTake, file_name},
+    rewrite::{RewriteError, Rewritten, rewrite},
+    scribe::{Progress, Scribe, unix_nanos},
+};
+use crate::{
+    clock::ServerClock,
+    executor::Workers,
+    fs::Fs,
+    hub::{Delivery, StartAt, SubscribeError, SubscribeSpec},
+    name::{SessionId, TakeId},
+    session::{SessionError, SessionHandle},
+    wire::actor::timestamp,
+};
+
+/// What waits is committed so long after the first of it (CONTRACTS U-2 asks for at most 20 ms).
+const COMMIT_AFTER: Duration = Duration::from_millis(8);
+
+/// Files that are flushed at once.
+const FLUSHES_AT_ONCE: usize = 16;
+
+/// Takes that are rewritten at once.
+const REWRITES_AT_ONCE: usize = 1;
+
+/// Least room on the disk for a new take, bytes (CONTRACTS U-9).
+const LEAST_FREE_BYTES: u64 = 1 << 30;
+
+/// Why a take does not start.
+#[derive(Debug, thiserror::Error)]
+pub enum StartError {
+    /// The session is recorded already.
+    #[error("the session is being recorded as take {0}")]
+    Recorded(TakeId),
+    /// The session takes no requests.
+    #[error(transparent)]
+    Session(#[from] SessionError),
+    /// The session has no room for a reader.
+    #[error(transparent)]
+    Subscribe(#[from] SubscribeError),
+    /// The disk is almost full.
+    #[error("{free_bytes} bytes are free, a take needs at least {LEAST_FREE_BYTES}")]
+    DiskLow {
+        /// What is left.
+        free_bytes: u64,
+    },
+    /// The file could not be made.
+    #[error("the file of the take could not be made")]
+    Io(#[from] io::Error),
+}
+
+/// A recording that is over.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EndedTake {
+    /// Which take.
+    pub id: TakeId,
+    /// What it holds.
+    pub figures: TakeFigures,
+    /// Length of its file.
+    pub n_bytes: u64,
+    /// How it went.
+    pub condition: Condition,
+    /// When it ended, Unix nanoseconds.
+    pub stop_time_nanos: i64,
+}
+
+/// A recording under way, for its status.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TakeUnderWay {
+    /// Which session.
+    pub session: SessionId,
+    /// What was recorded so far.
+    pub figures: TakeFigures,
+    /// Length of its file.
+    pub n_bytes: u64,
+}
+
+/// Records takes. Cheap to clone; clones share them.
+#[derive(Clone, Debug)]
+pub struct Recorder {
+    inner: Arc<Inner>,
+}
+
+#[derive(Debug)]
+struct Inner {
+    fs: Arc<dyn Fs>,
+    dir: PathBuf,
+    clock: ServerClock,
+    flushes: Workers,
+    rewrites: Workers,
+    dirty: Arc<Notify>,
+    tasks: TaskTracker,
+    takes: Mutex<BTreeMap<TakeId, Recording>>,
+}
+
+#[derive(Clone, Debug)]
+struct Recording {
+    take: Arc<OpenTake>,
+    ended: watch::Receiver<Option<EndedTake>>,
+}
+
+impl Recorder {
+    /// Records into `dir`, which exists.
+    pub fn new(fs: Arc<dyn Fs>, dir: PathBuf, clock: ServerClock) -> Self {
+        let inner = Inner {
+            fs,
+            dir,
+            clock,
+            flushes: Workers::pool(FLUSHES_AT_ONCE),
+            rewrites: Workers::pool(REWRITES_AT_ONCE),
+            dirty: Arc::default(),
+            tasks: TaskTracker::new(),
+            takes: Mutex::default(),
+        };
+        Self {
+            inner: Arc::new(inner),
+        }
+    }
+
+    /// Commits what scribes write, until `stopped`.
+    pub async fn commit(self, stopped: CancellationToken) {
+        let inner = &self.inner;
+        loop {
+            tokio::select! {
+                () = inner.dirty.notified() => {}
+                () = stopped.cancelled() => return,
+            }
+            tokio::time::sleep(COMMIT_AFTER).await;
+            let waiting: Vec<_> = inner
+                .takes()
+                .values()
+                .filter(|it| it.take.has_pending())
+                .map(|it| Arc::clone(&it.take))
+                .collect();
+            let commits = waiting.iter().map(|it| it.commit(&inner.flushes));
+            futures::stream::iter(commits)
+                .buffer_unordered(FLUSHES_AT_ONCE)
+                .collect::<()>()
+                .await;
+        }
+    }
+
+    /// Starts to record `session` as take `id`; `header` says what is not the session's to say. What the session acknowledges
+    /// after this returned is in the take. `on_end` is told when it is over and on stable storage.
+    ///
+    /// # Errors
+    ///
+    /// [`StartError`]; then nothing is recorded.
+    pub async fn start(
+        &self,
+        id: TakeId,
+        session: SessionHandle,
+        header: v1::TakeHeader,
+    ) -> Result<watch::Receiver<Option<EndedTake>>, StartError> {
+        self.check_disk().await?;
+        if let Some(other) = self.take_of(session.id()) {
+            return Err(StartError::Recorded(other));
+        }
+        let inner = &self.inner;
+        let take = OpenTake::create(
+            id.clone(),
+            session.clone(),
+            Arc::clone(&inner.fs),
+            inner.dir.clone(),
+            &inner.flushes,
+        );
+        let take = Arc::new(take.await?);
+        let started = self.start_scribe(&take, header);
+        if started.is_err() {
+            take.close().await;
+            inner.fs.remove(&inner.dir.join(file_name(&id)))?;
+        }
+        started
+    }
+
+    fn start_scribe(
+        &self,
+        take: &Arc<OpenTake>,
+        header: v1::TakeHeader,
+    ) -> Result<watch::Receiver<Option<EndedTake>>, StartError> {
+        let inner = &self.inner;
+        let session = &take.session;
+        let next_sequence = session.hub().newest_sequence() + 1;
+        let samples = session.hub().subscribe(SubscribeSpec {
+            name: take.id.resource(),
+            protocol: "take",
+            delivery: Delivery::EveryFrame(StartAt::Sequence(next_sequence)),
+            run: None,
+        })?;
+        let feed = session.record()?;
+        let now = unix_nanos(&inner.clock, inner.clock.now_nanos());
+        let header = v1::TakeHeader {
+            next_sequence,
+            next_frame: feed.next_frame,
+            ..header
+        };
+        take.add_event(Event::Header(header), now);
+        let (end, ended) = watch::channel(None);
+        let recording = Recording {
+            take: Arc::clone(take),
+            ended: ended.clone(),
+        };
+        inner.takes().insert(take.id.clone(), recording);
+        let mut scribe = Scribe {
+            take: Arc::clone(take),
+            feed,
+            samples,
+            clock: inner.clock,
+            dirty: Arc::clone(&inner.dirty),
+            progress: Progress::default(),
+        };
+        inner.dirty.notify_one();
+        let this = self.clone();
+        inner.tasks.spawn(async move {
+            scribe.run().await;
+            let ended = this.finish(&scribe.take).await;
+            end.send_replace(Some(ended));
+        });
+        Ok(ended)
+    }
+
+    /// Puts the last of a take on stable storage, and its file into its final form.
+    async fn finish(&self, take: &OpenTake) -> EndedTake {
+        let inner = &self.inner;
+        take.session.stop_recording();
+        let now_nanos = inner.clock.now_nanos();
+        let stop_time_nanos = now_nanos.saturating_add(inner.clock.unix_offset_nanos());
+        let (figures, ..) = take.figures();
+        let stop = v1::TakeStop {
+            stop_time: Some(timestamp(stop_time_nanos)),
+            n_frames: figures.n_frames,
+            n_samples: figures.n_samples,
+        };
+        take.add_event(Event::Stop(stop), unix_nanos(&inner.clock, now_nanos));
+        take.commit(&inner.flushes).await;
+        take.close().await;
+        let (figures, n_bytes, condition) = take.figures();
+        let rewritten = self.rewrite(&take.id).await;
+        inner.takes().remove(&take.id);
+        EndedTake {
+            id: take.id.clone(),
+            figures: rewritten.as_ref().map_or(figures, |it| it.figures),
+            n_bytes: rewritten.map_or(n_bytes, |it| it.n_bytes),
+            condition,
+            stop_time_nanos,
+        }
+    }
+
+    async fn rewrite(&self, id: &TakeId) -> Option<Rewritten> {
+        match self.try_rewrite(id).await {
+            Ok(rewritten) => Some(rewritten),
+            Err(error) => {
+                let error = &error as &dyn std::error::Error;
+                tracing::error!(take = %id, error, "a take stays as it was recorded");
+                None
+            }
+        }
+    }
+
+    /// Brings the file of a take that is not under way into its final form.
+    ///
+    /// # Errors
+    ///
+    /// [`RewriteError`]; the file is then as it was.
+    pub async fn try_rewrite(&self, id: &TakeId) -> Result<Rewritten, RewriteError> {
+        let (fs, dir) = (Arc::clone(&self.inner.fs), self.inner.dir.clone());
+        let name = file_name(id);
+        let work = move || rewrite(&*fs, &dir, &name);
+        self.inner.rewrites.run(work).await
+    }
+
+    /// Ends a recording; returns when all of it is on stable storage. `None` when no such take is under way.
+    pub async fn stop(&self, id: &TakeId) -> Option<EndedTake> {
+        let mut recording = self.inner.takes().get(id).cloned()?;
+        recording.take.session.stop_recording();
+        let ended = recording.ended.wait_for(Option::is_some).await.ok()?;
+        ended.clone()
+    }
+
+    /// The take that a session is recorded as.
+    pub fn take_of(&self, session: &SessionId) -> Option<TakeId> {
+        let takes = self.inner.takes();
+        let mut of_session = takes.values().filter(|it| it.take.session.id() == session);
+        of_session.next().map(|it| it.take.id.clone())
+    }
+
+    /// How a take under way goes.
+    pub fn under_way(&self, id: &TakeId) -> Option<TakeUnderWay> {
+        let recording = self.inner.takes().get(id).cloned()?;
+        let (figures, n_bytes, _) = recording.take.figures();
+        Some(TakeUnderWay {
+            session: recording.take.session.id().clone(),
+            figures,
+            n_bytes,
+        })
+    }
+
+    /// Waits until every take that is under way has ended: their sessions are over.
+    pub async fn ended(&self) {
+        self.inner.tasks.close();
+        self.inner.tasks.wait().await;
+    }
+
+    async fn check_disk(&self) -> Result<(), StartError> {
+        let (fs, dir) = (Arc::clone(&self.inner.fs), self.inner.dir.clone());
+        let free_bytes = self.inner.flushes.run(move || fs.free_bytes(&dir)).await?;
+        if free_bytes < LEAST_FREE_BYTES {
+            return Err(StartError::DiskLow { free_bytes });
+        }
+        Ok(())
+    }
+}
+
+impl Inner {
+    fn takes(&self) -> MutexGuard<'_, BTreeMap<TakeId, Recording>> {
+        self.takes.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}

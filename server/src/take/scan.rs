@@ -1,0 +1,158 @@
+//! Reading a take's file as it grew: chunk after chunk, past what was damaged (CONTRACTS U-5).
+
+use std::{io, path::Path};
+
+use super::{
+    channel,
+    chunk::{self, CHUNK_START_BYTES, Message},
+};
+use crate::fs::Fs;
+
+/// What stands next in a file.
+#[derive(Debug, PartialEq, Eq)]
+pub enum Piece {
+    /// A whole chunk, to be read by [`chunk::messages`].
+    Chunk(Vec<u8>),
+    /// Bytes that are none of ours, with chunks behind them.
+    Damage {
+        /// How many.
+        n_bytes: u64,
+    },
+    /// Bytes after the last chunk: a commit that was never acknowledged.
+    Tail {
+        /// How many.
+        n_bytes: u64,
+    },
+}
+
+/// Why a file is not read at all.
+#[derive(Debug, thiserror::Error)]
+pub enum ScanError {
+    /// The file system failed.
+    #[error(transparent)]
+    Io(#[from] io::Error),
+    /// It does not begin as a take does.
+    #[error("the file does not begin as a take of this version does")]
+    Head,
+    /// The writer of heads failed.
+    #[error("the head of a take cannot be made")]
+    Format(#[from] mcap::McapError),
+}
+
+/// Bytes that are looked through at once for a chunk behind damage.
+const SEARCH_BYTES: usize = 1 << 20;
+
+/// The pieces of one file, in order.
+#[derive(Debug)]
+pub struct Scan<'a> {
+    fs: &'a dyn Fs,
+    file: &'a Path,
+    offset: u64,
+    size: u64,
+}
+
+impl<'a> Scan<'a> {
+    /// Starts behind the head of `file`.
+    ///
+    /// # Errors
+    ///
+    /// [`ScanError::Head`] when it is not that of a growing take.
+    pub fn start(fs: &'a dyn Fs, file: &'a Path) -> Result<Self, ScanError> {
+        let head = channel::head()?;
+        let size = fs.size(file)?;
+        let mut scan = Self {
+            fs,
+            file,
+            offset: 0,
+            size,
+        };
+        if scan.bytes(head.len())? != head {
+            return Err(ScanError::Head);
+        }
+        scan.offset = head.len() as u64;
+        Ok(scan)
+    }
+
+    /// The next piece; `None` at the end.
+    ///
+    /// # Errors
+    ///
+    /// That the file system failed.
+    pub fn next(&mut self) -> io::Result<Option<Piece>> {
+        if self.offset >= self.size {
+            return Ok(None);
+        }
+        if let Some(chunk) = self.chunk_at(self.offset)? {
+            self.offset += chunk.len() as u64;
+            return Ok(Some(Piece::Chunk(chunk)));
+        }
+        let start = self.offset;
+        let next = self.find_chunk(start + 1)?;
+        self.offset = next.unwrap_or(self.size);
+        let n_bytes = self.offset - start;
+        Ok(Some(match next {
+            Some(_) => Piece::Damage { n_bytes },
+            None => Piece::Tail { n_bytes },
+        }))
+    }
+
+    fn chunk_at(&self, offset: u64) -> io::Result<Option<Vec<u8>>> {
+        let start = self.bytes_at(offset, CHUNK_START_BYTES)?;
+        let Some(n_bytes) = chunk::announced_bytes(&start) else {
+            return Ok(None);
+        };
+        if n_bytes as u64 > self.size - offset {
+            return Ok(None);
+        }
+        let chunk = self.bytes_at(offset, n_bytes)?;
+        Ok(chunk::messages(&chunk).is_some().then_some(chunk))
+    }
+
+    /// Where the first whole chunk at or behind `from` starts.
+    fn find_chunk(&self, from: u64) -> io::Result<Option<u64>> {
+        let mut block_start = from;
+        while block_start < self.size {
+            // Blocks overlap, so that no start of a chunk is cut.
+            let block = self.bytes_at(block_start, SEARCH_BYTES + CHUNK_START_BYTES)?;
+            let n_starts = block.len().min(SEARCH_BYTES);
+            for place in 0..n_starts {
+                let start = &block[place..];
+                let offset = block_start + place as u64;
+                if chunk::announced_bytes(start).is_some() && self.chunk_at(offset)?.is_some() {
+                    return Ok(Some(offset));
+                }
+            }
+            block_start += n_starts as u64;
+        }
+        Ok(None)
+    }
+
+    fn bytes(&self, n_bytes: usize) -> io::Result<Vec<u8>> {
+        self.bytes_at(self.offset, n_bytes)
+    }
+
+    /// As many of the bytes as there are.
+    fn bytes_at(&self, offset: u64, n_bytes: usize) -> io::Result<Vec<u8>> {
+        let left = usize::try_from(self.size.saturating_sub(offset)).unwrap_or(usize::MAX);
+        let mut bytes = vec![0; n_bytes.min(left)];
+        let mut n_read = 0;
+        while n_read < bytes.len() {
+            let place = offset + n_read as u64;
+            match self.fs.read_at(self.file, place, &mut bytes[n_read..])? {
+                0 => break,
+                n => n_read += n,
+            }
+        }
+        bytes.truncate(n_read);
+        Ok(bytes)
+    }
+}
+
+/// The messages of a chunk that a scan gave.
+pub fn messages(chunk: &[u8]) -> Vec<Message<'_>> {
+    // A scan gives whole chunks only.
+    chunk::messages(chunk).unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests;
