@@ -13,6 +13,7 @@ mod schema;
 mod sessions;
 mod settings;
 mod store;
+mod takes;
 
 use std::{
     io,
@@ -29,6 +30,7 @@ pub use revision::{ActorRevision, Layout, NewRevision};
 pub use sessions::{NewSession, SessionRow};
 pub use settings::StoredSettings;
 pub use store::{ActorLoadError, Store};
+pub use takes::{TakeContent, TakeFilter, TakeLabels, TakeRow, TakeState};
 
 /// Name of the database in the data directory.
 const DATABASE: &str = "catalogue.sqlite";
@@ -80,6 +82,12 @@ pub enum CatalogueError {
     /// A session of that id exists and has not ended.
     #[error("a session of this id exists and has not ended")]
     SessionExists,
+    /// No take of that id.
+    #[error("there is no take of this name")]
+    NoTake,
+    /// A take of that id exists.
+    #[error("a take of this id exists")]
+    TakeExists,
     /// No actor of that id, or no such revision of it.
     #[error("no such actor or revision")]
     NoActor,

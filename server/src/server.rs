@@ -1,6 +1,6 @@
 //! One server from start to end: everything that runs is started here and joined here.
 
-use std::{io, net::SocketAddr, path::Path, time::Duration};
+use std::{io, net::SocketAddr, path::Path, sync::Arc, time::Duration};
 
 use tokio::{net::TcpListener, sync::mpsc, time::timeout};
 use tokio_util::{sync::CancellationToken, task::TaskTracker};
@@ -11,7 +11,7 @@ use crate::{
     clock::ServerClock,
     config::{Config, ConfigError, Limits, worst_case},
     executor::Workers,
-    fs::MemFs,
+    fs::{Fs, MemFs, StdFs},
     reload::Reload,
     service::{
         access::{self, Access, TokenSourceError},
@@ -24,6 +24,7 @@ use crate::{
             curves::CurvesGrpc,
             server::{Protection, ServerGrpc},
             sessions::SessionsGrpc,
+            takes::TakesGrpc,
         },
         guard::Guard,
         http::{Doors, LargeBodies},
@@ -33,9 +34,11 @@ use crate::{
             tls::{Tls, TlsError},
         },
         sessions::Sessions,
+        takes::Takes,
     },
     session::{SessionLimits, SessionRegistry},
     shutdown::Phases,
+    take::Recorder,
     telemetry::Metrics,
 };
 
@@ -136,6 +139,7 @@ pub async fn run(
     let limits = session_limits(&config.limits);
     let registry = SessionRegistry::new(limits.clone(), clock, events);
     let sessions = Sessions::new(store.clone(), registry.clone(), clock, limits.sessions);
+    let takes = takes(&config, &store, &registry, clock)?;
     let phases = Phases::default();
     let services = Services {
         actors: ActorsGrpc::new(
@@ -149,6 +153,7 @@ pub async fn run(
         sessions: SessionsGrpc::new(sessions.clone(), audit.clone()),
         capture: CaptureGrpc::new(registry.clone(), store.clone(), clock, audit.clone()),
         curves: CurvesGrpc::new(registry.clone(), store.clone(), clock),
+        takes: TakesGrpc::new(takes.clone()),
         server: ServerGrpc::new(clock, protection, phases.clone()),
         max_message_bytes: config.limits.message_bytes(),
         message_deadline: Duration::from_secs(config.transport.message_deadline_secs),
@@ -173,6 +178,12 @@ pub async fn run(
         clock,
     };
     upkeep.spawn(keeper.run(kept, drained.clone()));
+    let n_recovered = takes.recover().await?;
+    if n_recovered > 0 {
+        tracing::info!(n_recovered, "takes that were cut short are whole again");
+    }
+    let recorder = takes.recorder().clone();
+    upkeep.spawn(recorder.clone().commit(drained.clone()));
     let retention = Duration::from_secs(config.session_retention_hours * 3_600);
     let n_restored = sessions.restore().await?;
     if n_restored > 0 {
@@ -205,6 +216,7 @@ pub async fn run(
         health,
         registry: registry.clone(),
         connections,
+        recorder,
         upkeep,
         drained,
         metrics: metrics.clone(),
@@ -226,6 +238,9 @@ pub async fn run(
 /// Time for the last events to reach the disk, after everything else has ended.
 const LAST_WRITES: Duration = Duration::from_secs(1);
 
+/// Time for the last takes to be put into their final form; what is not is so at the next start.
+const LAST_TAKES: Duration = Duration::from_secs(3);
+
 /// What has to end, in order.
 struct Ending {
     grace: Duration,
@@ -233,6 +248,7 @@ struct Ending {
     health: HealthReporter,
     registry: SessionRegistry,
     connections: TaskTracker,
+    recorder: Recorder,
     upkeep: TaskTracker,
     drained: CancellationToken,
     metrics: Metrics,
@@ -256,12 +272,14 @@ impl Ending {
         self.phases.cut.cancel();
         self.connections.close();
         self.connections.wait().await;
+        // Sessions are over, so their takes end by themselves.
+        let recorded = timeout(LAST_TAKES, self.recorder.ended()).await.is_ok();
         self.drained.cancel();
         self.upkeep.close();
         // Only a session that did not finish within the grace can still hold these up.
         let written = timeout(LAST_WRITES, self.upkeep.wait()).await.is_ok();
         tracing::info!("stopped");
-        clean && written
+        clean && written && recorded
     }
 
     async fn drain(&mut self) {
@@ -286,6 +304,23 @@ async fn open_store(config: &Config, heavy: Workers) -> Result<Store, CatalogueE
         .await?;
     let cached = count(config.limits.cached_actors);
     Ok(Store::new(catalogue, commits, heavy, cached))
+}
+
+/// The folder of takes in the data directory.
+const TAKES: &str = "takes";
+
+fn takes(
+    config: &Config,
+    store: &Store,
+    registry: &SessionRegistry,
+    clock: ServerClock,
+) -> Result<Takes, RunError> {
+    let (fs, dir): (Arc<dyn Fs>, _) = match config.directory() {
+        Some(directory) => (Arc::new(StdFs), directory.join(TAKES)),
+        None => (Arc::new(MemFs::default()), Path::new("/").join(TAKES)),
+    };
+    fs.create_dir_all(&dir)?;
+    Ok(Takes::new(store.clone(), registry.clone(), clock, fs, dir))
 }
 
 fn actor_limits(limits: &Limits) -> ActorLimits {

@@ -13,3 +13,4 @@ pub mod listener;
 pub mod panics;
 pub mod peer;
 pub mod sessions;
+pub mod takes;

@@ -14,7 +14,7 @@ mod scan;
 mod scribe;
 
 pub use figures::TakeFigures;
-pub use open_take::Condition;
+pub use open_take::{Condition, file_name};
 pub use recorder::{EndedTake, Recorder, StartError, TakeUnderWay};
 pub use rewrite::{RewriteError, Rewritten};
 pub use scan::ScanError;

@@ -8,3 +8,4 @@ pub mod invalid;
 pub mod page;
 pub mod parts;
 pub mod session;
+pub mod take;

@@ -5114,9 +5114,9 @@ pub struct TakeHeader {
     pub actor: ::prost::alloc::string::String,
     #[prost(uint32, tag = "5")]
     pub actor_revision: u32,
-    /// of the actor's package, eight hexadecimal digits
+    /// of the actor's package, 64 hexadecimal digits
     #[prost(string, tag = "6")]
-    pub package_crc32c: ::prost::alloc::string::String,
+    pub package_sha256: ::prost::alloc::string::String,
     #[prost(message, optional, tag = "7")]
     pub settings: ::core::option::Option<SessionSettings>,
     #[prost(string, tag = "8")]

@@ -14620,7 +14620,7 @@ impl serde::Serialize for TakeHeader {
         if self.actor_revision != 0 {
             len += 1;
         }
-        if !self.package_crc32c.is_empty() {
+        if !self.package_sha256.is_empty() {
             len += 1;
         }
         if self.settings.is_some() {
@@ -14671,8 +14671,8 @@ impl serde::Serialize for TakeHeader {
         if self.actor_revision != 0 {
             struct_ser.serialize_field("actorRevision", &self.actor_revision)?;
         }
-        if !self.package_crc32c.is_empty() {
-            struct_ser.serialize_field("packageCrc32c", &self.package_crc32c)?;
+        if !self.package_sha256.is_empty() {
+            struct_ser.serialize_field("packageSha256", &self.package_sha256)?;
         }
         if let Some(v) = self.settings.as_ref() {
             struct_ser.serialize_field("settings", v)?;
@@ -14724,8 +14724,8 @@ impl<'de> serde::Deserialize<'de> for TakeHeader {
             "actor",
             "actor_revision",
             "actorRevision",
-            "package_crc32c",
-            "packageCrc32c",
+            "package_sha256",
+            "packageSha256",
             "settings",
             "slate",
             "number",
@@ -14749,7 +14749,7 @@ impl<'de> serde::Deserialize<'de> for TakeHeader {
             Run,
             Actor,
             ActorRevision,
-            PackageCrc32c,
+            PackageSha256,
             Settings,
             Slate,
             Number,
@@ -14786,7 +14786,7 @@ impl<'de> serde::Deserialize<'de> for TakeHeader {
                             "run" => Ok(GeneratedField::Run),
                             "actor" => Ok(GeneratedField::Actor),
                             "actorRevision" | "actor_revision" => Ok(GeneratedField::ActorRevision),
-                            "packageCrc32c" | "package_crc32c" => Ok(GeneratedField::PackageCrc32c),
+                            "packageSha256" | "package_sha256" => Ok(GeneratedField::PackageSha256),
                             "settings" => Ok(GeneratedField::Settings),
                             "slate" => Ok(GeneratedField::Slate),
                             "number" => Ok(GeneratedField::Number),
@@ -14821,7 +14821,7 @@ impl<'de> serde::Deserialize<'de> for TakeHeader {
                 let mut run__ = None;
                 let mut actor__ = None;
                 let mut actor_revision__ = None;
-                let mut package_crc32c__ = None;
+                let mut package_sha256__ = None;
                 let mut settings__ = None;
                 let mut slate__ = None;
                 let mut number__ = None;
@@ -14868,11 +14868,11 @@ impl<'de> serde::Deserialize<'de> for TakeHeader {
                                 Some(map_.next_value::<::pbjson::private::NumberDeserialize<_>>()?.0)
                             ;
                         }
-                        GeneratedField::PackageCrc32c => {
-                            if package_crc32c__.is_some() {
-                                return Err(serde::de::Error::duplicate_field("packageCrc32c"));
+                        GeneratedField::PackageSha256 => {
+                            if package_sha256__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("packageSha256"));
                             }
-                            package_crc32c__ = Some(map_.next_value()?);
+                            package_sha256__ = Some(map_.next_value()?);
                         }
                         GeneratedField::Settings => {
                             if settings__.is_some() {
@@ -14948,7 +14948,7 @@ impl<'de> serde::Deserialize<'de> for TakeHeader {
                     run: run__.unwrap_or_default(),
                     actor: actor__.unwrap_or_default(),
                     actor_revision: actor_revision__.unwrap_or_default(),
-                    package_crc32c: package_crc32c__.unwrap_or_default(),
+                    package_sha256: package_sha256__.unwrap_or_default(),
                     settings: settings__,
                     slate: slate__.unwrap_or_default(),
                     number: number__.unwrap_or_default(),

@@ -7,7 +7,7 @@ use rusqlite::{Connection, TransactionBehavior};
 use super::CatalogueError;
 
 /// Step `i` leads from version `i` to version `i + 1`.
-const STEPS: &[&str] = &[V1];
+const STEPS: &[&str] = &[V1, V2];
 
 /// `counters` holds what must not repeat when rows are gone: the highest run and epoch of any collected session, and
 /// the number of the last package file.
@@ -47,6 +47,36 @@ CREATE TABLE sessions (
     alignment         TEXT
 ) STRICT;
 CREATE INDEX sessions_by_actor ON sessions (actor);
+";
+
+/// Takes, and those that are being erased.
+const V2: &str = "
+CREATE TABLE takes (
+    id               TEXT PRIMARY KEY,
+    session          TEXT NOT NULL,
+    actor            TEXT NOT NULL,
+    actor_revision   INTEGER NOT NULL,
+    slate            TEXT NOT NULL,
+    number           INTEGER NOT NULL,
+    gesture          TEXT NOT NULL,
+    circled          INTEGER NOT NULL,
+    notes            TEXT NOT NULL,
+    start_time_nanos INTEGER NOT NULL,
+    stop_time_nanos  INTEGER,
+    first_frame      INTEGER NOT NULL,
+    last_frame       INTEGER NOT NULL,
+    n_frames         INTEGER NOT NULL,
+    n_bytes          INTEGER NOT NULL,
+    state            TEXT NOT NULL,
+    recovered        INTEGER NOT NULL
+) STRICT;
+CREATE INDEX takes_by_session ON takes (session);
+CREATE INDEX takes_by_actor ON takes (actor);
+CREATE INDEX takes_by_slate ON takes (slate);
+
+CREATE TABLE doomed_takes (
+    id TEXT PRIMARY KEY
+) STRICT;
 ";
 
 /// Sets the connection up and brings the schema to the newest version.

@@ -9,11 +9,11 @@ use frontalis_analysis::{
 
 use super::{
     ActorRevision, Catalogue, CatalogueError, NewRevision, NewSession, SessionRow, StoredAlignment,
-    StoredSettings,
+    StoredSettings, TakeFilter, TakeLabels, TakeRow,
 };
 use crate::{
     executor::Workers,
-    name::{ActorId, SessionId},
+    name::{ActorId, SessionId, TakeId},
 };
 
 /// Catalogue, workers and the actors that were loaded last. Cheap to clone; clones share all of it.
@@ -285,6 +285,100 @@ impl Store {
     /// Keeps an actor that was just imported, so that it need not be read again.
     pub fn keep_loaded(&self, actor: &ActorId, revision: u32, loaded: &Arc<Actor>) {
         self.cache.put(actor, revision, loaded);
+    }
+
+    /// As [`Catalogue::add_take`].
+    ///
+    /// # Errors
+    ///
+    /// As there.
+    pub async fn add_take(&self, new: TakeRow) -> Result<TakeRow, CatalogueError> {
+        self.commit(move |it| it.add_take(&new)).await
+    }
+
+    /// As [`Catalogue::take`].
+    ///
+    /// # Errors
+    ///
+    /// As there.
+    pub async fn take(&self, id: &TakeId) -> Result<TakeRow, CatalogueError> {
+        let id = id.clone();
+        self.commit(move |it| it.take(&id)).await
+    }
+
+    /// As [`Catalogue::takes`].
+    ///
+    /// # Errors
+    ///
+    /// As there.
+    pub async fn takes(
+        &self,
+        filter: TakeFilter,
+        after: String,
+        limit: usize,
+    ) -> Result<Vec<TakeRow>, CatalogueError> {
+        self.commit(move |it| it.takes(&filter, &after, limit)).await
+    }
+
+    /// As [`Catalogue::takes_left_open`].
+    ///
+    /// # Errors
+    ///
+    /// As there.
+    pub async fn takes_left_open(&self) -> Result<Vec<TakeRow>, CatalogueError> {
+        self.commit(Catalogue::takes_left_open).await
+    }
+
+    /// As [`Catalogue::label_take`].
+    ///
+    /// # Errors
+    ///
+    /// As there.
+    pub async fn label_take(
+        &self,
+        id: &TakeId,
+        labels: TakeLabels,
+    ) -> Result<TakeRow, CatalogueError> {
+        let id = id.clone();
+        self.commit(move |it| it.label_take(&id, &labels)).await
+    }
+
+    /// As [`Catalogue::end_take`].
+    ///
+    /// # Errors
+    ///
+    /// As there.
+    pub async fn end_take(&self, ended: TakeRow) -> Result<TakeRow, CatalogueError> {
+        self.commit(move |it| it.end_take(&ended)).await
+    }
+
+    /// As [`Catalogue::doom_take`].
+    ///
+    /// # Errors
+    ///
+    /// As there.
+    pub async fn doom_take(&self, id: &TakeId) -> Result<(), CatalogueError> {
+        let id = id.clone();
+        self.commit(move |it| it.doom_take(&id)).await
+    }
+
+    /// As [`Catalogue::doomed_takes`].
+    ///
+    /// # Errors
+    ///
+    /// As there.
+    pub async fn doomed_takes(&self) -> Result<Vec<TakeId>, CatalogueError> {
+        self.commit(Catalogue::doomed_takes).await
+    }
+
+    /// As [`Catalogue::forget_take`].
+    ///
+    /// # Errors
+    ///
+    /// As there.
+    pub async fn forget_take(&self, id: &TakeId) -> Result<(), CatalogueError> {
+        let id = id.clone();
+        self.commit(move |it| it.forget_take(&id)).await
     }
 
     async fn commit<T, F>(&self, call: F) -> Result<T, CatalogueError>

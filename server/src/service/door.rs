@@ -45,11 +45,11 @@ const CHUNK_MESSAGE_BYTES: usize = MAX_CHUNK_BYTES + 4 * 1024;
 const ACTORS: &str = "/frontalis.v1.ActorService/";
 const CAPTURE: &str = "/frontalis.v1.CaptureService/";
 
-/// Names that the health service knows, and whether they serve: takes do not yet.
+/// Names that the health service knows, and whether they serve.
 const HEALTH: [(&str, bool); 3] = [
     ("", true),
     ("frontalis.v1.CaptureService", true),
-    ("frontalis.v1.TakeService", false),
+    ("frontalis.v1.TakeService", true),
 ];
 
 /// The services behind the port; each door opens these and no others.
@@ -63,6 +63,8 @@ pub struct Services {
     pub capture: CaptureGrpc,
     /// Curves out.
     pub curves: CurvesGrpc,
+    /// Recordings.
+    pub takes: TakesGrpc,
     /// The server itself.
     pub server: ServerGrpc,
     /// Largest message of a publisher, bytes.
@@ -113,7 +115,7 @@ pub async fn router(
         .max_decoding_message_size(services.max_message_bytes);
     let curves =
         CurveServiceServer::new(services.curves).max_decoding_message_size(SMALL_MESSAGE_BYTES);
-    let takes = TakeServiceServer::new(TakesGrpc).max_decoding_message_size(SMALL_MESSAGE_BYTES);
+    let takes = TakeServiceServer::new(services.takes).max_decoding_message_size(SMALL_MESSAGE_BYTES);
     let server =
         ServerServiceServer::new(services.server).max_decoding_message_size(SMALL_MESSAGE_BYTES);
     let grpc = Routes::new(actors)

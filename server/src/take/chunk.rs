@@ -48,11 +48,6 @@ impl ChunkBuffer {
         self.records.is_empty()
     }
 
-    /// Bytes that wait.
-    pub fn len(&self) -> usize {
-        self.records.len()
-    }
-
     /// Adds a message.
     pub fn add(&mut self, message: &Message<'_>) {
         let time_nanos = message.time_nanos;

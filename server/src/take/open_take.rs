@@ -33,7 +33,7 @@ pub enum Condition {
 }
 
 /// The file of a take in the directory of takes.
-pub(super) fn file_name(id: &TakeId) -> String {
+pub fn file_name(id: &TakeId) -> String {
     format!("{id}.mcap")
 }
 

@@ -149,7 +149,10 @@ impl Recorder {
                 .filter(|it| it.take.has_pending())
                 .map(|it| Arc::clone(&it.take))
                 .collect();
-            let commits = waiting.iter().map(|it| it.commit(&inner.flushes));
+            let commits = waiting.into_iter().map(|take| {
+                let flushes = inner.flushes.clone();
+                async move { take.commit(&flushes).await }
+            });
             futures::stream::iter(commits)
                 .buffer_unordered(FLUSHES_AT_ONCE)
                 .collect::<()>()
@@ -316,6 +319,15 @@ impl Recorder {
     pub async fn ended(&self) {
         self.inner.tasks.close();
         self.inner.tasks.wait().await;
+    }
+
+    /// Runs a call to the file system where it holds nothing up.
+    pub async fn run<T, F>(&self, call: F) -> T
+    where
+        F: FnOnce() -> T + Send + 'static,
+        T: Send + 'static,
+    {
+        self.inner.flushes.run(call).await
     }
 
     async fn check_disk(&self) -> Result<(), StartError> {

@@ -41,6 +41,8 @@ impl From<CatalogueError> for Status {
         match error {
             CatalogueError::NoSession => Refusal::new(Code::NotFound, "SESSION", message),
             CatalogueError::NoActor => Refusal::new(Code::NotFound, "ACTOR", message),
+            CatalogueError::NoTake => Refusal::new(Code::NotFound, "TAKE", message),
+            CatalogueError::TakeExists => Refusal::new(Code::AlreadyExists, "TAKE_EXISTS", message),
             CatalogueError::SessionExists => {
                 Refusal::new(Code::AlreadyExists, "SESSION_EXISTS", message)
             }

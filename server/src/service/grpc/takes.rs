@@ -1,4 +1,4 @@
-//! `TakeService`: recordings, which later versions fill.
+//! `TakeService`: recordings, from their start to their erasure.
 
 use std::pin::Pin;
 
@@ -8,26 +8,45 @@ use tonic::{Request, Response, Status};
 
 use super::actors::not_built;
 use crate::{
-    name::SessionId,
-    service::access::{Action, Caller},
-    wire::invalid::FieldError,
+    catalogue::{TakeFilter, TakeRow},
+    name::{ActorId, SessionId, TakeId},
+    service::{
+        access::{Action, Caller},
+        takes::Takes,
+    },
+    wire::{
+        invalid::{FieldError, FieldProblem},
+        page::Page,
+        take as wire,
+    },
 };
 
 type Responses<T> = Pin<Box<dyn Stream<Item = Result<T, Status>> + Send>>;
 
-/// Answers every call of those who may with UNIMPLEMENTED.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct TakesGrpc;
+/// The takes of a server. Cheap to clone.
+#[derive(Clone)]
+pub struct TakesGrpc {
+    takes: Takes,
+}
 
-/// The role, and the scope where the request names a session.
-fn check(caller: &Caller, action: Action, session: Option<&str>) -> Result<(), Status> {
-    caller.may(action)?;
-    match session {
-        None | Some("") => Ok(()),
-        Some(name) => {
-            let session = SessionId::from_resource(name).map_err(FieldError::name("session"))?;
-            caller.may_in(action, &session)
-        }
+impl TakesGrpc {
+    /// The service over `takes`.
+    pub fn new(takes: Takes) -> Self {
+        Self { takes }
+    }
+
+    /// The take of this name, if the caller may do this to it. One that it must not see is not there.
+    async fn allowed(
+        &self,
+        caller: &Caller,
+        action: Action,
+        name: &str,
+    ) -> Result<TakeRow, Status> {
+        caller.may(action)?;
+        let id = TakeId::from_resource(name).map_err(FieldError::name("name"))?;
+        let row = self.takes.get(&id).await?;
+        caller.may_in(action, &row.session)?;
+        Ok(row)
     }
 }
 
@@ -38,12 +57,15 @@ impl TakeService for TakesGrpc {
         request: Request<v1::StartTakeRequest>,
     ) -> Result<Response<v1::StartTakeResponse>, Status> {
         let caller = Caller::of(request.extensions());
-        check(
-            &caller,
-            Action::Record,
-            Some(request.get_ref().session.as_str()),
-        )?;
-        Err(not_built("StartTake"))
+        caller.may(Action::Record)?;
+        let request = request.into_inner();
+        let session =
+            SessionId::from_resource(&request.session).map_err(FieldError::name("session"))?;
+        caller.may_in(Action::Record, &session)?;
+        let row = self.takes.start(&session, wire::labels(&request)?).await?;
+        Ok(Response::new(v1::StartTakeResponse {
+            take: Some(wire::take(&row)),
+        }))
     }
 
     async fn stop_take(
@@ -51,8 +73,12 @@ impl TakeService for TakesGrpc {
         request: Request<v1::StopTakeRequest>,
     ) -> Result<Response<v1::StopTakeResponse>, Status> {
         let caller = Caller::of(request.extensions());
-        check(&caller, Action::Record, None)?;
-        Err(not_built("StopTake"))
+        let name = &request.get_ref().name;
+        let row = self.allowed(&caller, Action::Record, name).await?;
+        let row = self.takes.stop(&row.id).await?;
+        Ok(Response::new(v1::StopTakeResponse {
+            take: Some(wire::take(&row)),
+        }))
     }
 
     async fn get_take(
@@ -60,8 +86,11 @@ impl TakeService for TakesGrpc {
         request: Request<v1::GetTakeRequest>,
     ) -> Result<Response<v1::GetTakeResponse>, Status> {
         let caller = Caller::of(request.extensions());
-        check(&caller, Action::ReadTakes, None)?;
-        Err(not_built("GetTake"))
+        let name = &request.get_ref().name;
+        let row = self.allowed(&caller, Action::ReadTakes, name).await?;
+        Ok(Response::new(v1::GetTakeResponse {
+            take: Some(wire::take(&row)),
+        }))
     }
 
     async fn list_takes(
@@ -69,12 +98,19 @@ impl TakeService for TakesGrpc {
         request: Request<v1::ListTakesRequest>,
     ) -> Result<Response<v1::ListTakesResponse>, Status> {
         let caller = Caller::of(request.extensions());
-        check(
-            &caller,
-            Action::ReadTakes,
-            Some(request.get_ref().session.as_str()),
-        )?;
-        Err(not_built("ListTakes"))
+        caller.may(Action::ReadTakes)?;
+        let request = request.into_inner();
+        let page = Page::parse(request.page_size, &request.page_token)?;
+        let filter = filter(request)?;
+        if let Some(session) = &filter.session {
+            caller.may_in(Action::ReadTakes, session)?;
+        }
+        let is_seen = |id: &SessionId| caller.sees(id);
+        let (rows, next_page_token) = self.takes.list(&filter, &page, is_seen).await?;
+        Ok(Response::new(v1::ListTakesResponse {
+            takes: rows.iter().map(wire::take).collect(),
+            next_page_token,
+        }))
     }
 
     async fn update_take(
@@ -82,8 +118,15 @@ impl TakeService for TakesGrpc {
         request: Request<v1::UpdateTakeRequest>,
     ) -> Result<Response<v1::UpdateTakeResponse>, Status> {
         let caller = Caller::of(request.extensions());
-        check(&caller, Action::Record, None)?;
-        Err(not_built("UpdateTake"))
+        let request = request.into_inner();
+        let sent = request.take.unwrap_or_default();
+        let mask = request.update_mask.unwrap_or_default().paths;
+        let row = self.allowed(&caller, Action::Record, &sent.name).await?;
+        let labels = wire::relabeled(&row.labels, &sent, &mask)?;
+        let row = self.takes.label(&row.id, labels).await?;
+        Ok(Response::new(v1::UpdateTakeResponse {
+            take: Some(wire::take(&row)),
+        }))
     }
 
     async fn delete_take(
@@ -91,8 +134,10 @@ impl TakeService for TakesGrpc {
         request: Request<v1::DeleteTakeRequest>,
     ) -> Result<Response<v1::DeleteTakeResponse>, Status> {
         let caller = Caller::of(request.extensions());
-        check(&caller, Action::DeleteTake, None)?;
-        Err(not_built("DeleteTake"))
+        let name = &request.get_ref().name;
+        let row = self.allowed(&caller, Action::DeleteTake, name).await?;
+        self.takes.delete(&row.id).await?;
+        Ok(Response::new(v1::DeleteTakeResponse {}))
     }
 
     type ExportTakeStream = Responses<v1::ExportTakeResponse>;
@@ -102,8 +147,17 @@ impl TakeService for TakesGrpc {
         request: Request<v1::ExportTakeRequest>,
     ) -> Result<Response<Self::ExportTakeStream>, Status> {
         let caller = Caller::of(request.extensions());
-        check(&caller, Action::ReadTakes, None)?;
-        Err(not_built("ExportTake"))
+        let name = &request.get_ref().name;
+        let row = self.allowed(&caller, Action::ReadTakes, name).await?;
+        let number = request.get_ref().format;
+        let unknown = |_| FieldError::new("format", FieldProblem::UnknownEnum(number));
+        let format = v1::TakeFormat::try_from(number).map_err(unknown)?;
+        match format {
+            v1::TakeFormat::Unspecified | v1::TakeFormat::Mcap => {
+                Ok(Response::new(Box::pin(self.takes.file(&row))))
+            }
+            _ => Err(not_built("ExportTake in this format")),
+        }
     }
 
     type ResolveTakeStream = Responses<v1::ResolveTakeResponse>;
@@ -113,7 +167,23 @@ impl TakeService for TakesGrpc {
         request: Request<v1::ResolveTakeRequest>,
     ) -> Result<Response<Self::ResolveTakeStream>, Status> {
         let caller = Caller::of(request.extensions());
-        check(&caller, Action::MakeActors, None)?;
+        let name = &request.get_ref().name;
+        self.allowed(&caller, Action::MakeActors, name).await?;
         Err(not_built("ResolveTake"))
     }
+}
+
+fn filter(request: v1::ListTakesRequest) -> Result<TakeFilter, Status> {
+    let given = |it: &String| !it.is_empty();
+    let session = Some(&request.session).filter(|it| given(it));
+    let actor = Some(&request.actor).filter(|it| given(it));
+    Ok(TakeFilter {
+        session: session
+            .map(|it| SessionId::from_resource(it).map_err(FieldError::name("session")))
+            .transpose()?,
+        actor: actor
+            .map(|it| ActorId::from_resource(it).map_err(FieldError::name("actor")))
+            .transpose()?,
+        slate: Some(request.slate).filter(given),
+    })
 }

@@ -1,0 +1,376 @@
+//! Rows of takes: what was recorded of whom, and what the set says of it.
+//!
+//! A take's file is what counts; a row is written before the file begins, and brought up to date when it is over.
+
+use rusqlite::{Connection, OptionalExtension as _, Params, Row, params};
+
+use super::{Catalogue, CatalogueError};
+use crate::name::{ActorId, SessionId, TakeId};
+
+/// Where a take stands.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TakeState {
+    /// Its session is being recorded, or was when the server crashed.
+    Recording,
+    /// Whole.
+    Closed,
+    /// Part of it could not be written.
+    Degraded,
+    /// The disk was full.
+    TruncatedDiskFull,
+    /// Its file cannot be read; it is kept for a person to look at.
+    Quarantined,
+}
+
+impl TakeState {
+    const NAMES: [(Self, &str); 5] = [
+        (Self::Recording, "recording"),
+        (Self::Closed, "closed"),
+        (Self::Degraded, "degraded"),
+        (Self::TruncatedDiskFull, "truncated-disk-full"),
+        (Self::Quarantined, "quarantined"),
+    ];
+
+    fn name(self) -> &'static str {
+        let known = Self::NAMES.iter().find(|(it, _)| *it == self);
+        known.map_or("quarantined", |(_, name)| name)
+    }
+
+    fn of(name: &str) -> Option<Self> {
+        let known = Self::NAMES.iter().find(|(_, it)| *it == name);
+        known.map(|(it, _)| *it)
+    }
+}
+
+/// What people say of a take; it may be corrected later.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct TakeLabels {
+    /// The slate.
+    pub slate: String,
+    /// The take's number on its slate, from 1.
+    pub number: u32,
+    /// Label of a training take; empty: none.
+    pub gesture: String,
+    /// The director's choice.
+    pub circled: bool,
+    /// Anything else.
+    pub notes: String,
+}
+
+/// What a take holds.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct TakeContent {
+    /// Number of the first frame; 0 without frames.
+    pub first_frame: u64,
+    /// Number of the last frame.
+    pub last_frame: u64,
+    /// Frames.
+    pub n_frames: u64,
+    /// Length of the file.
+    pub n_bytes: u64,
+}
+
+/// A stored take.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TakeRow {
+    /// Its id.
+    pub id: TakeId,
+    /// The session that was recorded.
+    pub session: SessionId,
+    /// Whose performance it is.
+    pub actor: ActorId,
+    /// Revision of the actor at the start.
+    pub actor_revision: u32,
+    /// What people say of it.
+    pub labels: TakeLabels,
+    /// When it began, Unix nanoseconds.
+    pub start_time_nanos: i64,
+    /// When it ended, Unix nanoseconds.
+    pub stop_time_nanos: Option<i64>,
+    /// What it holds, as far as it is known.
+    pub content: TakeContent,
+    /// Where it stands.
+    pub state: TakeState,
+    /// Closed by recovery after a crash.
+    pub recovered: bool,
+}
+
+/// Which takes are listed.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct TakeFilter {
+    /// Of this session.
+    pub session: Option<SessionId>,
+    /// Of this actor.
+    pub actor: Option<ActorId>,
+    /// Of this slate.
+    pub slate: Option<String>,
+}
+
+const COLUMNS: &str = "id, session, actor, actor_revision, slate, number, gesture, circled, notes,
+    start_time_nanos, stop_time_nanos, first_frame, last_frame, n_frames, n_bytes, state, recovered";
+
+impl Catalogue {
+    /// Adds a take that begins. A number of 0 becomes the next of its slate.
+    ///
+    /// # Errors
+    ///
+    /// [`CatalogueError::TakeExists`] when there is one of that id.
+    pub fn add_take(&self, new: &TakeRow) -> Result<TakeRow, CatalogueError> {
+        let connection = self.connection();
+        let id = new.id.as_str();
+        if find(&connection, &new.id)?.is_some() {
+            return Err(CatalogueError::TakeExists);
+        }
+        let number = match new.labels.number {
+            0 => next_number(&connection, &new.labels.slate)?,
+            chosen => chosen,
+        };
+        connection.execute(
+            "INSERT INTO takes VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, ?15, ?16, ?17)",
+            params![
+                id,
+                new.session.as_str(),
+                new.actor.as_str(),
+                new.actor_revision,
+                new.labels.slate,
+                number,
+                new.labels.gesture,
+                new.labels.circled,
+                new.labels.notes,
+                new.start_time_nanos,
+                new.stop_time_nanos,
+                integer(new.content.first_frame),
+                integer(new.content.last_frame),
+                integer(new.content.n_frames),
+                integer(new.content.n_bytes),
+                new.state.name(),
+                new.recovered,
+            ],
+        )?;
+        self.found_take(&connection, &new.id)
+    }
+
+    /// One take.
+    ///
+    /// # Errors
+    ///
+    /// [`CatalogueError::NoTake`].
+    pub fn take(&self, id: &TakeId) -> Result<TakeRow, CatalogueError> {
+        find(&self.connection(), id)?.ok_or(CatalogueError::NoTake)
+    }
+
+    /// At most `limit` takes whose ids come after `after`, by id.
+    ///
+    /// # Errors
+    ///
+    /// That the database failed or a row cannot be read.
+    pub fn takes(
+        &self,
+        filter: &TakeFilter,
+        after: &str,
+        limit: usize,
+    ) -> Result<Vec<TakeRow>, CatalogueError> {
+        let limit = i64::try_from(limit).unwrap_or(i64::MAX);
+        let values = params![
+            after,
+            filter.session.as_ref().map(SessionId::as_str),
+            filter.actor.as_ref().map(ActorId::as_str),
+            filter.slate,
+            limit,
+        ];
+        let condition = "id > ?1 AND (?2 IS NULL OR session = ?2) AND (?3 IS NULL OR actor = ?3)
+            AND (?4 IS NULL OR slate = ?4) ORDER BY id LIMIT ?5";
+        select(&self.connection(), condition, values)
+    }
+
+    /// Takes that were being recorded when the last process stopped.
+    ///
+    /// # Errors
+    ///
+    /// That the database failed or a row cannot be read.
+    pub fn takes_left_open(&self) -> Result<Vec<TakeRow>, CatalogueError> {
+        select(&self.connection(), "state = 'recording' ORDER BY id", [])
+    }
+
+    /// Stores what people say of a take.
+    ///
+    /// # Errors
+    ///
+    /// [`CatalogueError::NoTake`].
+    pub fn label_take(&self, id: &TakeId, labels: &TakeLabels) -> Result<TakeRow, CatalogueError> {
+        let connection = self.connection();
+        connection.execute(
+            "UPDATE takes SET slate = ?2, number = ?3, gesture = ?4, circled = ?5, notes = ?6 WHERE id = ?1",
+            params![
+                id.as_str(),
+                labels.slate,
+                labels.number,
+                labels.gesture,
+                labels.circled,
+                labels.notes,
+            ],
+        )?;
+        self.found_take(&connection, id)
+    }
+
+    /// Stores how a take ended.
+    ///
+    /// # Errors
+    ///
+    /// [`CatalogueError::NoTake`].
+    pub fn end_take(&self, ended: &TakeRow) -> Result<TakeRow, CatalogueError> {
+        let connection = self.connection();
+        connection.execute(
+            "UPDATE takes SET stop_time_nanos = ?2, first_frame = ?3, last_frame = ?4, n_frames = ?5,
+                n_bytes = ?6, state = ?7, recovered = ?8 WHERE id = ?1",
+            params![
+                ended.id.as_str(),
+                ended.stop_time_nanos,
+                integer(ended.content.first_frame),
+                integer(ended.content.last_frame),
+                integer(ended.content.n_frames),
+                integer(ended.content.n_bytes),
+                ended.state.name(),
+                ended.recovered,
+            ],
+        )?;
+        self.found_take(&connection, &ended.id)
+    }
+
+    /// Notes that a take is to be erased; what a crash leaves of it is erased at the next start (CONTRACTS U-12).
+    ///
+    /// # Errors
+    ///
+    /// That the database failed.
+    pub fn doom_take(&self, id: &TakeId) -> Result<(), CatalogueError> {
+        let statement = "INSERT OR IGNORE INTO doomed_takes VALUES (?1)";
+        self.connection().execute(statement, [id.as_str()])?;
+        Ok(())
+    }
+
+    /// Takes that are to be erased.
+    ///
+    /// # Errors
+    ///
+    /// That the database failed or a row cannot be read.
+    pub fn doomed_takes(&self) -> Result<Vec<TakeId>, CatalogueError> {
+        let connection = self.connection();
+        let mut statement = connection.prepare("SELECT id FROM doomed_takes ORDER BY id")?;
+        let ids = statement.query_map([], |row| row.get::<_, String>(0))?;
+        let ids = ids.collect::<Result<Vec<_>, _>>()?;
+        ids.iter().map(|it| take_id(it)).collect()
+    }
+
+    /// Forgets a take whose file is gone.
+    ///
+    /// # Errors
+    ///
+    /// That the database failed.
+    pub fn forget_take(&self, id: &TakeId) -> Result<(), CatalogueError> {
+        let mut connection = self.connection();
+        let change = connection.transaction()?;
+        change.execute("DELETE FROM takes WHERE id = ?1", [id.as_str()])?;
+        change.execute("DELETE FROM doomed_takes WHERE id = ?1", [id.as_str()])?;
+        change.commit()?;
+        Ok(())
+    }
+
+    fn found_take(&self, connection: &Connection, id: &TakeId) -> Result<TakeRow, CatalogueError> {
+        find(connection, id)?.ok_or(CatalogueError::NoTake)
+    }
+}
+
+fn next_number(connection: &Connection, slate: &str) -> Result<u32, CatalogueError> {
+    let last: Option<u32> = connection.query_row(
+        "SELECT MAX(number) FROM takes WHERE slate = ?1",
+        [slate],
+        |row| row.get(0),
+    )?;
+    Ok(last.unwrap_or(0).saturating_add(1))
+}
+
+fn find(connection: &Connection, id: &TakeId) -> Result<Option<TakeRow>, CatalogueError> {
+    let statement = format!("SELECT {COLUMNS} FROM takes WHERE id = ?1");
+    let found = connection.query_row(&statement, [id.as_str()], raw).optional()?;
+    found.map(RawTake::parse).transpose()
+}
+
+fn select(
+    connection: &Connection,
+    condition: &str,
+    values: impl Params,
+) -> Result<Vec<TakeRow>, CatalogueError> {
+    let mut statement =
+        connection.prepare(&format!("SELECT {COLUMNS} FROM takes WHERE {condition}"))?;
+    let rows = statement.query_map(values, raw)?;
+    rows.map(|it| it?.parse()).collect()
+}
+
+struct RawTake {
+    id: String,
+    session: String,
+    actor: String,
+    state: String,
+    actor_revision: u32,
+    labels: TakeLabels,
+    start_time_nanos: i64,
+    stop_time_nanos: Option<i64>,
+    content: [i64; 4],
+    recovered: bool,
+}
+
+fn raw(row: &Row<'_>) -> rusqlite::Result<RawTake> {
+    Ok(RawTake {
+        id: row.get(0)?,
+        session: row.get(1)?,
+        actor: row.get(2)?,
+        actor_revision: row.get(3)?,
+        labels: TakeLabels {
+            slate: row.get(4)?,
+            number: row.get(5)?,
+            gesture: row.get(6)?,
+            circled: row.get(7)?,
+            notes: row.get(8)?,
+        },
+        start_time_nanos: row.get(9)?,
+        stop_time_nanos: row.get(10)?,
+        content: [row.get(11)?, row.get(12)?, row.get(13)?, row.get(14)?],
+        state: row.get(15)?,
+        recovered: row.get(16)?,
+    })
+}
+
+impl RawTake {
+    fn parse(self) -> Result<TakeRow, CatalogueError> {
+        const SESSION: CatalogueError = CatalogueError::Unreadable { what: "session id" };
+        const ACTOR: CatalogueError = CatalogueError::Unreadable { what: "actor id" };
+        const STATE: CatalogueError = CatalogueError::Unreadable { what: "take's state" };
+        let [first_frame, last_frame, n_frames, n_bytes] = self.content.map(i64::unsigned_abs);
+        Ok(TakeRow {
+            id: take_id(&self.id)?,
+            session: SessionId::parse(&self.session).map_err(|_| SESSION)?,
+            actor: ActorId::parse(&self.actor).map_err(|_| ACTOR)?,
+            actor_revision: self.actor_revision,
+            labels: self.labels,
+            start_time_nanos: self.start_time_nanos,
+            stop_time_nanos: self.stop_time_nanos,
+            content: TakeContent {
+                first_frame,
+                last_frame,
+                n_frames,
+                n_bytes,
+            },
+            state: TakeState::of(&self.state).ok_or(STATE)?,
+            recovered: self.recovered,
+        })
+    }
+}
+
+fn take_id(text: &str) -> Result<TakeId, CatalogueError> {
+    TakeId::parse(text).map_err(|_| CatalogueError::Unreadable { what: "take id" })
+}
+
+/// Counts and frame numbers as the database has them; those beyond its integers are held at the last.
+fn integer(value: u64) -> i64 {
+    i64::try_from(value).unwrap_or(i64::MAX)
+}

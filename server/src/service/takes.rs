@@ -1,0 +1,385 @@
+//! Takes as every door sees them: what is being recorded joined with what the catalogue keeps.
+
+use std::{io, path::PathBuf, sync::Arc};
+
+use frontalis_proto::v1;
+use futures::Stream;
+use sha2::{Digest as _, Sha256};
+use tokio::sync::watch;
+use tonic::Status;
+
+use super::grpc::status::refuse;
+use crate::{
+    catalogue::{CatalogueError, Store, TakeContent, TakeFilter, TakeLabels, TakeRow, TakeState},
+    clock::ServerClock,
+    fs::{Fs, TEMPORARY_SUFFIX},
+    name::{SessionId, TakeId},
+    session::{SessionHandle, SessionRegistry},
+    take::{
+        Condition, EndedTake, Recorder, RewriteError, Rewritten, StartError, TakeUnderWay, file_name,
+    },
+    wire::{page::Page, session::effective},
+};
+
+/// Bytes of a take's file in one message.
+const PIECE_BYTES: usize = 64 * 1024;
+
+/// Rows that are looked at together for a caller who sees few of them.
+const ROWS_AT_ONCE: usize = 256;
+
+/// All takes of a server. Cheap to clone.
+#[derive(Clone)]
+pub struct Takes {
+    store: Store,
+    registry: SessionRegistry,
+    recorder: Recorder,
+    clock: ServerClock,
+    fs: Arc<dyn Fs>,
+    dir: PathBuf,
+}
+
+impl Takes {
+    /// Joins the recorder into `dir` with the catalogue.
+    pub fn new(
+        store: Store,
+        registry: SessionRegistry,
+        clock: ServerClock,
+        fs: Arc<dyn Fs>,
+        dir: PathBuf,
+    ) -> Self {
+        Self {
+            recorder: Recorder::new(Arc::clone(&fs), dir.clone(), clock),
+            store,
+            registry,
+            clock,
+            fs,
+            dir,
+        }
+    }
+
+    /// What records.
+    pub fn recorder(&self) -> &Recorder {
+        &self.recorder
+    }
+
+    /// Starts to record a session. What it acknowledges from then on is in the take.
+    ///
+    /// # Errors
+    ///
+    /// `SESSION`, `TAKE_RECORDING`, `DISK_LOW`, or that the storage failed.
+    pub async fn start(&self, session: &SessionId, labels: TakeLabels) -> Result<TakeRow, Status> {
+        let handle = self.registry.get(session)?;
+        handle.check_open()?;
+        let start_time_nanos = self.unix_now();
+        let row = TakeRow {
+            id: take_id(session, start_time_nanos),
+            session: session.clone(),
+            actor: handle.actor_id().clone(),
+            actor_revision: handle.actor_revision(),
+            labels,
+            start_time_nanos,
+            stop_time_nanos: None,
+            content: TakeContent::default(),
+            state: TakeState::Recording,
+            recovered: false,
+        };
+        let row = self.store.add_take(row).await?;
+        let header = self.header(&row, &handle).await?;
+        match self.recorder.start(row.id.clone(), handle, header).await {
+            Ok(ended) => {
+                let this = self.clone();
+                tokio::spawn(async move { this.keep_end(ended).await });
+                Ok(row)
+            }
+            Err(error) => {
+                self.store.forget_take(&row.id).await?;
+                Err(start_status(&error))
+            }
+        }
+    }
+
+    async fn header(
+        &self,
+        row: &TakeRow,
+        handle: &SessionHandle,
+    ) -> Result<v1::TakeHeader, Status> {
+        let actor = handle.actor();
+        let package = self.store.package(&row.actor, row.actor_revision).await?;
+        let muscles = actor.muscle_set().muscles().iter();
+        Ok(v1::TakeHeader {
+            take: row.id.resource(),
+            session: row.session.resource(),
+            run: handle.run(),
+            actor: row.actor.resource(),
+            actor_revision: row.actor_revision,
+            package_sha256: self.recorder.run(move || sha256(&package)).await,
+            settings: Some(effective(&handle.settings())),
+            slate: row.labels.slate.clone(),
+            number: row.labels.number,
+            gesture: row.labels.gesture.clone(),
+            start_time: Some(crate::wire::actor::timestamp(row.start_time_nanos)),
+            controls: muscles.map(|it| it.name.clone()).collect(),
+            markers: actor.markers().iter().map(|it| it.name.clone()).collect(),
+            next_sequence: 0,
+            server_version: env!("CARGO_PKG_VERSION").to_owned(),
+            next_frame: 0,
+        })
+    }
+
+    /// Waits for the end of a take and writes it into the catalogue.
+    async fn keep_end(&self, mut ended: watch::Receiver<Option<EndedTake>>) {
+        let Ok(ended) = ended.wait_for(Option::is_some).await.map(|it| it.clone()) else {
+            return;
+        };
+        if let Some(ended) = ended
+            && let Err(error) = self.store_end(&ended).await
+        {
+            let error = &error as &dyn std::error::Error;
+            tracing::error!(take = %ended.id, error, "how a take ended could not be stored");
+        }
+    }
+
+    async fn store_end(&self, ended: &EndedTake) -> Result<TakeRow, CatalogueError> {
+        let row = self.store.take(&ended.id).await?;
+        let state = match ended.condition {
+            Condition::Sound => TakeState::Closed,
+            Condition::Degraded => TakeState::Degraded,
+            Condition::DiskFull => TakeState::TruncatedDiskFull,
+        };
+        let ended = TakeRow {
+            stop_time_nanos: Some(ended.stop_time_nanos),
+            content: TakeContent {
+                first_frame: ended.figures.first_frame,
+                last_frame: ended.figures.last_frame,
+                n_frames: ended.figures.n_frames,
+                n_bytes: ended.n_bytes,
+            },
+            state,
+            ..row
+        };
+        self.store.end_take(ended).await
+    }
+
+    /// Ends a take; returns when all of it is on stable storage. One that is over already stays as it is.
+    ///
+    /// # Errors
+    ///
+    /// `TAKE`, or that the storage failed.
+    pub async fn stop(&self, id: &TakeId) -> Result<TakeRow, Status> {
+        let row = self.store.take(id).await?;
+        match self.recorder.stop(id).await {
+            Some(ended) => Ok(self.store_end(&ended).await?),
+            None => Ok(self.store.take(id).await.unwrap_or(row)),
+        }
+    }
+
+    /// One take, as far as it has been recorded.
+    ///
+    /// # Errors
+    ///
+    /// `TAKE`, or that the storage failed.
+    pub async fn get(&self, id: &TakeId) -> Result<TakeRow, Status> {
+        Ok(self.with_progress(self.store.take(id).await?))
+    }
+
+    fn with_progress(&self, row: TakeRow) -> TakeRow {
+        let Some(TakeUnderWay {
+            figures, n_bytes, ..
+        }) = self.recorder.under_way(&row.id)
+        else {
+            return row;
+        };
+        let content = TakeContent {
+            first_frame: figures.first_frame,
+            last_frame: figures.last_frame,
+            n_frames: figures.n_frames,
+            n_bytes,
+        };
+        TakeRow { content, ..row }
+    }
+
+    /// A page of the takes that are seen.
+    ///
+    /// # Errors
+    ///
+    /// That the storage failed.
+    pub async fn list(
+        &self,
+        filter: &TakeFilter,
+        page: &Page,
+        is_seen: impl Fn(&SessionId) -> bool,
+    ) -> Result<(Vec<TakeRow>, String), Status> {
+        let n_wanted = page.n_to_read();
+        let n_at_once = n_wanted.max(ROWS_AT_ONCE);
+        let (mut seen, mut after) = (Vec::new(), page.after.clone());
+        loop {
+            let rows = self.store.takes(filter.clone(), after.clone(), n_at_once).await?;
+            let is_last = rows.len() < n_at_once;
+            if let Some(last) = rows.last() {
+                after = last.id.to_string();
+            }
+            seen.extend(rows.into_iter().filter(|it| is_seen(&it.session)));
+            if is_last || seen.len() >= n_wanted {
+                break;
+            }
+        }
+        let next = page.cut(&mut seen, |it| it.id.to_string());
+        let rows = seen.into_iter().map(|it| self.with_progress(it));
+        Ok((rows.collect(), next))
+    }
+
+    /// The bytes of a take's file, as far as they are on stable storage, in pieces. A take under way is cut where it stood at
+    /// the start.
+    pub fn file(
+        &self,
+        row: &TakeRow,
+    ) -> impl Stream<Item = Result<v1::ExportTakeResponse, Status>> + Send + 'static {
+        let (this, name, n_bytes) = (self.clone(), file_name(&row.id), row.content.n_bytes);
+        futures::stream::try_unfold(0, move |offset| {
+            let (this, name) = (this.clone(), name.clone());
+            async move {
+                let n_left = usize::try_from(n_bytes - offset).unwrap_or(usize::MAX);
+                let chunk = this.piece(name, offset, n_left.min(PIECE_BYTES)).await?;
+                let next = offset + chunk.len() as u64;
+                let is_over = chunk.is_empty();
+                Ok((!is_over).then_some((v1::ExportTakeResponse { chunk }, next)))
+            }
+        })
+    }
+
+    async fn piece(&self, name: String, offset: u64, n_bytes: usize) -> Result<Vec<u8>, Status> {
+        let (fs, file) = (Arc::clone(&self.fs), self.dir.join(name));
+        let read = self.recorder.run(move || {
+            let mut piece = vec![0; n_bytes];
+            let n_read = fs.read_at(&file, offset, &mut piece)?;
+            piece.truncate(n_read);
+            Ok::<_, io::Error>(piece)
+        });
+        Ok(read.await.map_err(CatalogueError::Storage)?)
+    }
+
+    /// Changes what is said of a take.
+    ///
+    /// # Errors
+    ///
+    /// `TAKE`, or that the storage failed.
+    pub async fn label(&self, id: &TakeId, labels: TakeLabels) -> Result<TakeRow, Status> {
+        Ok(self.with_progress(self.store.label_take(id, labels).await?))
+    }
+
+    /// Erases a take: its tombstone first, then its bytes, then its row (CONTRACTS U-12).
+    ///
+    /// # Errors
+    ///
+    /// `TAKE`, or that the storage failed; what is left is erased at the next start.
+    pub async fn delete(&self, id: &TakeId) -> Result<(), Status> {
+        self.store.take(id).await?;
+        self.store.doom_take(id).await?;
+        self.recorder.stop(id).await;
+        Ok(self.erase(id).await?)
+    }
+
+    async fn erase(&self, id: &TakeId) -> Result<(), CatalogueError> {
+        let (fs, dir, name) = (Arc::clone(&self.fs), self.dir.clone(), file_name(id));
+        self.recorder
+            .run(move || {
+                fs.remove(&dir.join(format!("{name}{TEMPORARY_SUFFIX}")))?;
+                fs.remove(&dir.join(&name))?;
+                fs.sync_dir(&dir)
+            })
+            .await?;
+        self.store.forget_take(id).await
+    }
+
+    /// Brings every take into order that the last process left open or half erased; returns how many were recovered.
+    ///
+    /// A take that cannot be read is quarantined and named; the others are not affected (CONTRACTS U-5, U-6).
+    ///
+    /// # Errors
+    ///
+    /// That the catalogue failed.
+    pub async fn recover(&self) -> Result<usize, CatalogueError> {
+        for id in self.store.doomed_takes().await? {
+            self.erase(&id).await?;
+        }
+        let left_open = self.store.takes_left_open().await?;
+        let n_takes = left_open.len();
+        for row in left_open {
+            let rewritten = self.recorder.try_rewrite(&row.id).await;
+            self.store.end_take(self.recovered(row, rewritten)).await?;
+        }
+        Ok(n_takes)
+    }
+
+    fn recovered(&self, row: TakeRow, rewritten: Result<Rewritten, RewriteError>) -> TakeRow {
+        let stop_time_nanos = Some(row.stop_time_nanos.unwrap_or_else(|| self.unix_now()));
+        match rewritten {
+            Ok(it) => {
+                tracing::info!(
+                    take = %row.id,
+                    n_frames = it.figures.n_frames,
+                    n_damaged_bytes = it.n_damaged_bytes,
+                    n_tail_bytes = it.n_tail_bytes,
+                    "a take was recovered"
+                );
+                TakeRow {
+                    stop_time_nanos,
+                    content: TakeContent {
+                        first_frame: it.figures.first_frame,
+                        last_frame: it.figures.last_frame,
+                        n_frames: it.figures.n_frames,
+                        n_bytes: it.n_bytes,
+                    },
+                    state: TakeState::Closed,
+                    recovered: true,
+                    ..row
+                }
+            }
+            Err(error) => {
+                let error = &error as &dyn std::error::Error;
+                tracing::error!(take = %row.id, error, "a take cannot be read, it is kept as it is");
+                TakeRow {
+                    stop_time_nanos,
+                    state: TakeState::Quarantined,
+                    ..row
+                }
+            }
+        }
+    }
+
+    fn unix_now(&self) -> i64 {
+        let clock = &self.clock;
+        clock.now_nanos().saturating_add(clock.unix_offset_nanos())
+    }
+}
+
+/// In hexadecimal digits.
+fn sha256(bytes: &[u8]) -> String {
+    use std::fmt::Write as _;
+    let digits = Sha256::digest(bytes);
+    digits.iter().fold(String::new(), |mut text, byte| {
+        // Writing to a string does not fail.
+        let _ok = write!(text, "{byte:02x}");
+        text
+    })
+}
+
+/// The session and the second: takes of one session sort by time.
+fn take_id(session: &SessionId, unix_nanos: i64) -> TakeId {
+    /// Of an id; the time takes twelve digits in base 36 at most, with a dash before it.
+    const SESSION_BYTES: usize = 48;
+    let session: String = session.as_str().chars().take(SESSION_BYTES).collect();
+    let millis = unix_nanos.unsigned_abs() / 1_000_000;
+    TakeId::parse(&format!("{session}-{millis:x}")).expect("invariant: the parts are those of an id")
+}
+
+fn start_status(error: &StartError) -> Status {
+    let message = error.to_string();
+    match error {
+        StartError::Recorded(_) => refuse(tonic::Code::FailedPrecondition, "TAKE_RECORDING", message),
+        StartError::DiskLow { .. } => refuse(tonic::Code::ResourceExhausted, "DISK_LOW", message),
+        StartError::Io(_) => refuse(tonic::Code::Internal, "STORAGE", message),
+        StartError::Session(error) => error.clone().into(),
+        StartError::Subscribe(error) => (*error).into(),
+    }
+}
