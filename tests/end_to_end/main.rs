@@ -23,3 +23,4 @@ mod openapi;
 mod real_takes;
 mod recentering;
 mod restart;
+mod takes;

@@ -31,6 +31,8 @@ pub struct PublishReport {
     pub rejected: Vec<RejectedFrame>,
     /// Frames that were taken and not solved.
     pub shed_frames: u64,
+    /// The highest watermark of stable storage.
+    pub durable_through: u64,
 }
 
 impl PublishReport {
@@ -115,10 +117,25 @@ impl Publisher {
                 "a watermark never falls"
             );
             self.report.accepted_through = it.accepted_through;
+            self.report.durable_through = self.report.durable_through.max(it.durable_through);
             self.report.rejected.extend(it.rejected.iter().cloned());
             self.report.shed_frames = it.shed_frames;
         }
         Ok(answer)
+    }
+
+    /// Reads answers until every frame up to `number` is on stable storage.
+    ///
+    /// # Errors
+    ///
+    /// When the stream ends before that.
+    pub async fn durable(&mut self, number: u64) -> Result<(), Status> {
+        while self.report.durable_through < number {
+            if self.next().await?.is_none() {
+                return Err(Status::internal("the stream ended early"));
+            }
+        }
+        Ok(())
     }
 
     /// Reads answers until every frame up to `number` has been taken.

@@ -6,6 +6,7 @@ use frontalis_proto::v1::{
     Actor, CreateSessionRequest, EndSessionRequest, GetSessionRequest, ImportActorRequest,
     ImportActorResponse, ImportActorStart, Session, SessionSettings,
     actor_service_client::ActorServiceClient, session_service_client::SessionServiceClient,
+    take_service_client::TakeServiceClient,
 };
 use frontalis_server::{Server, config::Config};
 use tempfile::TempDir;
@@ -210,6 +211,32 @@ impl TestServer {
             keys,
             tls,
         }
+    }
+
+    /// Kills the program, as a crash does, and starts another on the same folder.
+    ///
+    /// # Panics
+    ///
+    /// When it is no program of its own.
+    pub async fn kill_and_restart(self) -> Self {
+        match self.running {
+            Running::Program(program) => program.kill(),
+            Running::Inside { .. } => panic!("this server is no program of its own"),
+        }
+        let file = self.folder.path().join("frontalis.toml");
+        let started = tokio::task::spawn_blocking(move || ServerProgram::start(&file));
+        Self {
+            running: Running::Program(Box::new(started.await.unwrap())),
+            config: self.config,
+            folder: self.folder,
+            keys: self.keys,
+            tls: self.tls,
+        }
+    }
+
+    /// A client of its takes.
+    pub async fn takes(&self) -> TakeServiceClient<TestChannel> {
+        TakeServiceClient::new(self.channel().await)
     }
 
     /// What SIGTERM does, without waiting.

@@ -111,6 +111,12 @@ impl ServerProgram {
         assert!(sent.success());
     }
 
+    /// Ends it at once, as a crash does.
+    pub fn kill(mut self) {
+        self.child.kill().unwrap();
+        self.child.wait().unwrap();
+    }
+
     /// Waits until it is gone; true: nothing had to be cut.
     pub async fn wait(&mut self) -> bool {
         loop {

@@ -317,7 +317,8 @@ impl Store {
         after: String,
         limit: usize,
     ) -> Result<Vec<TakeRow>, CatalogueError> {
-        self.commit(move |it| it.takes(&filter, &after, limit)).await
+        self.commit(move |it| it.takes(&filter, &after, limit))
+            .await
     }
 
     /// As [`Catalogue::takes_left_open`].

@@ -291,7 +291,9 @@ fn next_number(connection: &Connection, slate: &str) -> Result<u32, CatalogueErr
 
 fn find(connection: &Connection, id: &TakeId) -> Result<Option<TakeRow>, CatalogueError> {
     let statement = format!("SELECT {COLUMNS} FROM takes WHERE id = ?1");
-    let found = connection.query_row(&statement, [id.as_str()], raw).optional()?;
+    let found = connection
+        .query_row(&statement, [id.as_str()], raw)
+        .optional()?;
     found.map(RawTake::parse).transpose()
 }
 
@@ -344,7 +346,9 @@ impl RawTake {
     fn parse(self) -> Result<TakeRow, CatalogueError> {
         const SESSION: CatalogueError = CatalogueError::Unreadable { what: "session id" };
         const ACTOR: CatalogueError = CatalogueError::Unreadable { what: "actor id" };
-        const STATE: CatalogueError = CatalogueError::Unreadable { what: "take's state" };
+        const STATE: CatalogueError = CatalogueError::Unreadable {
+            what: "take's state",
+        };
         let [first_frame, last_frame, n_frames, n_bytes] = self.content.map(i64::unsigned_abs);
         Ok(TakeRow {
             id: take_id(&self.id)?,

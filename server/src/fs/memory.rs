@@ -49,7 +49,10 @@ impl MemFs {
         for (name, content) in &self.state().files {
             let (synced, rest) = content.bytes.split_at(content.n_synced);
             let bytes = [synced, &torn(name, rest)].concat();
-            after.state().files.insert(name.clone(), Content::synced(&bytes));
+            after
+                .state()
+                .files
+                .insert(name.clone(), Content::synced(&bytes));
         }
         after
     }

@@ -115,7 +115,8 @@ pub async fn router(
         .max_decoding_message_size(services.max_message_bytes);
     let curves =
         CurveServiceServer::new(services.curves).max_decoding_message_size(SMALL_MESSAGE_BYTES);
-    let takes = TakeServiceServer::new(services.takes).max_decoding_message_size(SMALL_MESSAGE_BYTES);
+    let takes =
+        TakeServiceServer::new(services.takes).max_decoding_message_size(SMALL_MESSAGE_BYTES);
     let server =
         ServerServiceServer::new(services.server).max_decoding_message_size(SMALL_MESSAGE_BYTES);
     let grpc = Routes::new(actors)

@@ -16,7 +16,8 @@ use crate::{
     name::{SessionId, TakeId},
     session::{SessionHandle, SessionRegistry},
     take::{
-        Condition, EndedTake, Recorder, RewriteError, Rewritten, StartError, TakeUnderWay, file_name,
+        Condition, EndedTake, Recorder, RewriteError, Rewritten, StartError, TakeUnderWay,
+        file_name,
     },
     wire::{page::Page, session::effective},
 };
@@ -213,7 +214,10 @@ impl Takes {
         let n_at_once = n_wanted.max(ROWS_AT_ONCE);
         let (mut seen, mut after) = (Vec::new(), page.after.clone());
         loop {
-            let rows = self.store.takes(filter.clone(), after.clone(), n_at_once).await?;
+            let rows = self
+                .store
+                .takes(filter.clone(), after.clone(), n_at_once)
+                .await?;
             let is_last = rows.len() < n_at_once;
             if let Some(last) = rows.last() {
                 after = last.id.to_string();
@@ -370,13 +374,16 @@ fn take_id(session: &SessionId, unix_nanos: i64) -> TakeId {
     const SESSION_BYTES: usize = 48;
     let session: String = session.as_str().chars().take(SESSION_BYTES).collect();
     let millis = unix_nanos.unsigned_abs() / 1_000_000;
-    TakeId::parse(&format!("{session}-{millis:x}")).expect("invariant: the parts are those of an id")
+    TakeId::parse(&format!("{session}-{millis:x}"))
+        .expect("invariant: the parts are those of an id")
 }
 
 fn start_status(error: &StartError) -> Status {
     let message = error.to_string();
     match error {
-        StartError::Recorded(_) => refuse(tonic::Code::FailedPrecondition, "TAKE_RECORDING", message),
+        StartError::Recorded(_) => {
+            refuse(tonic::Code::FailedPrecondition, "TAKE_RECORDING", message)
+        }
         StartError::DiskLow { .. } => refuse(tonic::Code::ResourceExhausted, "DISK_LOW", message),
         StartError::Io(_) => refuse(tonic::Code::Internal, "STORAGE", message),
         StartError::Session(error) => error.clone().into(),

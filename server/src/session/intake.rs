@@ -16,9 +16,9 @@ use super::{
     mailbox::Mailbox,
     order::{FrameOrder, Verdict},
     publication::{Claim, Grant, Ingest, Offer, PublishEnd, Wait},
-    recording::{Recorded, RecordedFrame, RecordedSource, RecordingFeed, RecordingTap, recording},
     queue::{MAX_WAITING_COMMANDS, WaitingFrame, Work, WorkQueue},
     rate::{Admission, RateLimit, RateMeter},
+    recording::{Recorded, RecordedFrame, RecordedSource, RecordingFeed, RecordingTap, recording},
     settings::StreamShape,
     status::SessionStatus,
 };

@@ -87,7 +87,9 @@ pub(super) fn declare<W: std::io::Write>(writer: &mut Writer<NoSeek<W>>) -> mcap
 ///
 /// When the writer refuses, which writing to memory gives no reason for.
 pub(super) fn head() -> mcap::McapResult<Vec<u8>> {
-    let mut writer = options().use_chunks(false).create(NoSeek::new(Vec::new()))?;
+    let mut writer = options()
+        .use_chunks(false)
+        .create(NoSeek::new(Vec::new()))?;
     declare(&mut writer)?;
     Ok(writer.into_inner().into_inner())
 }

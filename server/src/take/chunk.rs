@@ -115,7 +115,11 @@ pub fn messages(chunk: &[u8]) -> Option<Vec<Message<'_>>> {
         && size == same_size
         && size == records.len() as u64
         && checksum == crc32fast::hash(records);
-    let messages = if is_whole { parse(records)? } else { return None };
+    let messages = if is_whole {
+        parse(records)?
+    } else {
+        return None;
+    };
     let times = || messages.iter().map(|it| it.time_nanos);
     let found = (times().min()?, times().max()?);
     (found == bounds).then_some(messages)
@@ -195,7 +199,10 @@ mod tests {
     #[test]
     fn a_chunk_gives_back_its_messages() {
         let chunk = chunk();
-        assert_eq!(announced_bytes(&chunk[..CHUNK_START_BYTES]), Some(chunk.len()));
+        assert_eq!(
+            announced_bytes(&chunk[..CHUNK_START_BYTES]),
+            Some(chunk.len())
+        );
         let found = messages(&chunk).unwrap();
         assert_eq!(found.len(), 2);
         assert_eq!(found[1].channel, Channel::Markers);

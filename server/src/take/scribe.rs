@@ -117,7 +117,8 @@ impl Scribe {
                     last: lost.last_frame,
                     cause: GapCause::Shed,
                 };
-                self.take.add_event(Event::Gap(gap_to_wire(&gap)), self.now());
+                self.take
+                    .add_event(Event::Gap(gap_to_wire(&gap)), self.now());
                 Next::Over
             }
             Delivered::Closed(_) => Next::Over,
@@ -141,7 +142,8 @@ impl Scribe {
         if let Some(state) = update.state {
             // The same state again is a sign of life and no change.
             if self.progress.state.replace(state.session_state) != Some(state.session_state) {
-                self.take.add_event(Event::State(state_to_wire(&state)), now);
+                self.take
+                    .add_event(Event::State(state_to_wire(&state)), now);
             }
         }
     }

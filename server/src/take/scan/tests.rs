@@ -56,7 +56,12 @@ fn a_file_that_is_cut_anywhere_keeps_every_whole_chunk() {
     let (bytes, starts) = file(4);
     for n_bytes in starts[1]..=bytes.len() {
         let pieces = scan(&bytes[..n_bytes]);
-        let n_whole = starts.iter().skip(1).chain([&bytes.len()]).filter(|it| **it <= n_bytes).count();
+        let n_whole = starts
+            .iter()
+            .skip(1)
+            .chain([&bytes.len()])
+            .filter(|it| **it <= n_bytes)
+            .count();
         let expected: Vec<u32> = (0..u32::try_from(n_whole).unwrap()).collect();
         assert_eq!(sequences(&pieces), expected, "{n_bytes} bytes");
         assert!(!pieces.iter().any(|it| matches!(it, Piece::Damage { .. })));

@@ -1,0 +1,53 @@
+//! A server that is killed loses nothing that it acknowledged as durable (CONTRACTS G1, the short form).
+
+use frontalis_proto::v1::TakeState;
+use harness::{Publisher, RecordedTake, TestPerformance, TestServer};
+
+use super::{SESSION, export, get, start};
+
+/// Kills of one run of the test; `make kill-test` does more.
+const N_KILLS: u64 = 5;
+
+/// Frames between two kills, so that each comes at another moment.
+const STEP: u64 = 17;
+
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn a_killed_server_gives_back_every_durable_frame() {
+    let mut server = TestServer::start_program(|_| {}).await;
+    server.import_reference().await;
+    server
+        .create_session("stage", "actors/reference")
+        .await
+        .unwrap();
+    let performance = TestPerformance::reference();
+    for kill in 0..N_KILLS {
+        let take = start(&server, SESSION, "").await.unwrap();
+        let mut publisher = Publisher::open(&server, performance.start(SESSION, "stage"))
+            .await
+            .unwrap();
+        let n_durable = 40 + kill * STEP;
+        for number in 1..=n_durable + 20 {
+            publisher.send(vec![performance.frame(number)]).await;
+        }
+        println!("kill {kill}: sent");
+        publisher.durable(n_durable).await.unwrap();
+        println!("kill {kill}: durable");
+        let durable_through = publisher.report().durable_through;
+        server = server.kill_and_restart().await;
+
+        println!("kill {kill}: restarted");
+        let found = get(&server, &take.name).await.unwrap();
+        assert!(found.recovered, "{found:?}");
+        assert_eq!(found.state(), TakeState::Closed);
+        let recorded = RecordedTake::read(&export(&server, &take.name).await);
+        let numbers = recorded.frame_numbers();
+        let expected: Vec<u64> = (1..=numbers.len() as u64).collect();
+        assert_eq!(numbers, expected, "none lost, doubled or out of order");
+        assert!(numbers.len() as u64 >= durable_through, "{durable_through}");
+        assert_eq!(
+            recorded.frames,
+            performance.frames(1..=numbers.len() as u64)
+        );
+        assert_eq!(found.n_frames, numbers.len() as u64);
+    }
+}
