@@ -243,9 +243,9 @@ impl Estimator {
         self.parts.copy_from_slice(&frame.evidence.parts);
         self.decay = frame.decay;
         self.expected.copy_from_slice(x);
-        for i in 0..x.len() {
+        for (i, &before) in x.iter().enumerate() {
             self.bounds[i] = match self.parts[i] {
-                Part::Held => [x[i]; 2],
+                Part::Held => [before; 2],
                 Part::Solved | Part::Unobserved => self.boxes[i],
             };
             if self.parts[i] == Part::Unobserved {
