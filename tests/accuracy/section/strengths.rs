@@ -39,7 +39,7 @@ pub fn write(report: &mut Report) {
     report.add(INTRODUCTION);
     let settings: [(&str, Set); 3] = [
         ("smoothing", |it, strength| {
-            it.objective.smoothing = strength
+            it.objective.smoothing = strength;
         }),
         ("sparsity", |it, strength| it.objective.sparsity = strength),
         ("symmetry", |it, strength| it.objective.symmetry = strength),
