@@ -12,7 +12,7 @@ pub mod trc;
 mod shared_data;
 
 /// A stranger's text as it may appear in an error: printable, and not longer than a line.
-fn quoted(text: &str) -> String {
+pub(crate) fn quoted(text: &str) -> String {
     const SHOWN_CHARS: usize = 120;
     let mut shown: String = text
         .chars()

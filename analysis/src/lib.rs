@@ -13,6 +13,7 @@
 //! | [`curve`] | the sample that comes out |
 //! | [`synthesis`] | E = E₀ + Σ xᵢeᵢ, the reference face and its pseudo-muscles (Hung & Huang), expressions |
 //! | [`stage`] | cameras and triangulation |
+//! | [`timecode`] | SMPTE labels of frames |
 //! | [`mod@format`] | bytes to types and back: actor packages, OBJ, GLB, TRC |
 
 pub mod analyzer;
@@ -24,3 +25,4 @@ pub mod numeric;
 pub mod space;
 pub mod stage;
 pub mod synthesis;
+pub mod timecode;
