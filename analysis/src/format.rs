@@ -4,6 +4,7 @@
 //! has a limit with a name, and every error says where.
 
 pub mod actor_package;
+pub mod c3d;
 pub mod glb;
 pub mod obj;
 pub mod trc;
