@@ -317,6 +317,38 @@ fn the_first_row_of_a_real_take_is_what_the_file_says() {
 }
 
 #[test]
+fn rows_that_are_not_the_headings_are_refused() {
+    let take = take();
+    let heading = TrcHeading {
+        name: "take",
+        rate_hz: take.rate_hz,
+        unit: take.unit,
+        marker_names: &take.marker_names,
+        first_frame: 1,
+        n_frames: 1,
+    };
+    let mut writer = TrcWriter::new(Vec::new(), &heading).unwrap();
+    let short = TrcFrame {
+        positions: vec![[0.0; 3]],
+        ..take.frames[0].clone()
+    };
+    let error = writer.write_frame(&short).unwrap_err();
+    assert_eq!(error.to_string(), "a row has 1 positions; 2 are expected");
+    writer.write_frame(&take.frames[0]).unwrap();
+    let error = writer.write_frame(&take.frames[1]).unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "2 rows were written; the heading states 1"
+    );
+    let writer = TrcWriter::new(Vec::new(), &heading).unwrap();
+    let error = writer.finish().unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "0 rows were written; the heading states 1"
+    );
+}
+
+#[test]
 fn a_take_cut_at_any_byte_is_read_up_to_there_or_refused() {
     for end in 0..TAKE.len() {
         if let Ok(read) = parse(&TAKE.as_bytes()[..end]) {
