@@ -7,6 +7,7 @@ pub mod actor_package;
 pub mod c3d;
 pub mod curve_csv;
 pub mod glb;
+pub mod live_link;
 pub mod obj;
 pub mod trc;
 
