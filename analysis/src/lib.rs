@@ -14,7 +14,7 @@
 //! | [`synthesis`] | E = E₀ + Σ xᵢeᵢ, the reference face and its pseudo-muscles (Hung & Huang), expressions |
 //! | [`stage`] | cameras and triangulation |
 //! | [`timecode`] | SMPTE labels of frames |
-//! | [`mod@format`] | bytes to types and back: actor packages, OBJ, GLB, C3D, TRC, tables of curves |
+//! | [`mod@format`] | bytes to types and back: actor packages, OBJ, GLB with its animation, C3D, TRC, curves as CSV and for Live Link |
 
 pub mod analyzer;
 pub mod curve;
