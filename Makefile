@@ -121,7 +121,7 @@ deny-if-installed:
 
 # Longer than the tests: each target for FUZZ_SECONDS, on a nightly toolchain; what breaks is kept in fuzz/artifacts.
 FUZZ_SECONDS ?= 60
-FUZZ_TARGETS := marker_frames
+FUZZ_TARGETS := marker_frames c3d trc
 .PHONY: fuzz
 fuzz: ## Every fuzz target for FUZZ_SECONDS (a minute); needs the nightly toolchain
 	@cargo +nightly fuzz --version >/dev/null 2>&1 || cargo +nightly install --locked cargo-fuzz

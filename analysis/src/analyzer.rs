@@ -345,7 +345,14 @@ impl MarkerAnalyzer {
     /// How far each muscle went since the alignment, and what that says about the basis; empty before it.
     pub fn ranges(&self) -> Vec<MuscleRange> {
         match &self.stage {
-            Stage::Solving(solving) => solving.solver.ranges(),
+            Stage::Solving(solving) => {
+                let mut ranges = solving.solver.ranges();
+                // A face that was not at rest moves every muscle's zero: the shapes are not to blame.
+                if solving.doubt().is_some() {
+                    ranges.iter_mut().for_each(MuscleRange::withhold);
+                }
+                ranges
+            }
             _ => Vec::new(),
         }
     }

@@ -4,7 +4,10 @@
 //! has a limit with a name, and every error says where.
 
 pub mod actor_package;
+pub mod c3d;
+pub mod curve_csv;
 pub mod glb;
+pub mod live_link;
 pub mod obj;
 pub mod trc;
 
@@ -12,7 +15,7 @@ pub mod trc;
 mod shared_data;
 
 /// A stranger's text as it may appear in an error: printable, and not longer than a line.
-fn quoted(text: &str) -> String {
+pub(crate) fn quoted(text: &str) -> String {
     const SHOWN_CHARS: usize = 120;
     let mut shown: String = text
         .chars()

@@ -13,7 +13,8 @@
 //! | [`curve`] | the sample that comes out |
 //! | [`synthesis`] | E = E₀ + Σ xᵢeᵢ, the reference face and its pseudo-muscles (Hung & Huang), expressions |
 //! | [`stage`] | cameras and triangulation |
-//! | [`mod@format`] | bytes to types and back: actor packages, OBJ, GLB, TRC |
+//! | [`timecode`] | SMPTE labels of frames |
+//! | [`mod@format`] | bytes to types and back: actor packages, OBJ, GLB with its animation, C3D, TRC, curves as CSV and for Live Link |
 
 pub mod analyzer;
 pub mod curve;
@@ -24,3 +25,4 @@ pub mod numeric;
 pub mod space;
 pub mod stage;
 pub mod synthesis;
+pub mod timecode;

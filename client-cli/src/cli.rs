@@ -14,6 +14,7 @@ use crate::commands::{
     session::SessionCommand,
     simulate::SimulateArgs,
     solve::SolveArgs,
+    take::TakeCommand,
     token::TokenCommand,
     watch::WatchArgs,
 };
@@ -51,6 +52,9 @@ pub enum Command {
     /// Create, list, show, change, recenter and end sessions
     #[command(subcommand)]
     Session(SessionCommand),
+    /// Record sessions; list, label, save and erase takes
+    #[command(subcommand)]
+    Take(TakeCommand),
     /// Publish a TRC file into a session
     Publish(PublishArgs),
     /// Follow a session's curves: live bars, CSV or JSON

@@ -21,6 +21,7 @@ pub mod simulate;
 pub mod solve;
 mod solve_report;
 mod stage_run;
+pub mod take;
 pub mod token;
 pub mod watch;
 
@@ -37,6 +38,7 @@ pub async fn run(context: &Context, command: Command) -> anyhow::Result<ExitCode
     match command {
         Command::Actor(command) => actor::run(context, command).await,
         Command::Session(command) => session::run(context, command).await,
+        Command::Take(command) => take::run(context, command).await,
         Command::Publish(args) => publish::run(context, args).await,
         Command::Watch(args) => watch::run(context, args).await,
         Command::Solve(args) => solve::run(context, &args),

@@ -15,10 +15,13 @@ impl RangeVerdict {
                 "Full contractions move the markers further than this shape does: make it stronger."
             }
             Self::TooStrong => {
-                "Even the strongest contractions stay far below 1, because this shape moves further than the actor does: make it weaker."
+                "Even the strongest contractions stay far below 1: let the actor contract this muscle fully, and if it stays so, make the shape weaker."
             }
             Self::WrongDirection => {
                 "The markers move against this shape: correct the direction in which it moves the skin."
+            }
+            Self::NeutralInDoubt => {
+                "The neutral face is in doubt, and with it all that could be said of this shape: recenter first."
             }
             Self::HardlyObservable => {
                 "The markers hardly tell this muscle from noise or from other muscles, so its curve means little: put a marker where it moves the skin most."

@@ -178,17 +178,9 @@ pub async fn run(
         clock,
     };
     upkeep.spawn(keeper.run(kept, drained.clone()));
-    let n_recovered = takes.recover().await?;
-    if n_recovered > 0 {
-        tracing::info!(n_recovered, "takes that were cut short are whole again");
-    }
-    let recorder = takes.recorder().clone();
-    upkeep.spawn(recorder.clone().commit(drained.clone()));
+    let recorder = start_recorder(&takes, &upkeep, &drained).await?;
     let retention = Duration::from_secs(config.session_retention_hours * 3_600);
-    let n_restored = sessions.restore().await?;
-    if n_restored > 0 {
-        tracing::info!(n_restored, "sessions go on as new runs");
-    }
+    restore(&sessions).await?;
     upkeep.spawn(keeper::collect(sessions, retention, drained.clone()));
 
     let reload = Reload::default();
@@ -304,6 +296,29 @@ async fn open_store(config: &Config, heavy: Workers) -> Result<Store, CatalogueE
         .await?;
     let cached = count(config.limits.cached_actors);
     Ok(Store::new(catalogue, commits, heavy, cached))
+}
+
+async fn restore(sessions: &Sessions) -> Result<(), RunError> {
+    let n_restored = sessions.restore().await?;
+    if n_restored > 0 {
+        tracing::info!(n_restored, "sessions go on as new runs");
+    }
+    Ok(())
+}
+
+/// Brings the last process's takes into order, and lets new ones be recorded.
+async fn start_recorder(
+    takes: &Takes,
+    upkeep: &TaskTracker,
+    drained: &CancellationToken,
+) -> Result<Recorder, RunError> {
+    let n_recovered = takes.recover().await?;
+    if n_recovered > 0 {
+        tracing::info!(n_recovered, "takes that were cut short are whole again");
+    }
+    let recorder = takes.recorder().clone();
+    upkeep.spawn(recorder.clone().commit(drained.clone()));
+    Ok(recorder)
 }
 
 /// The folder of takes in the data directory.

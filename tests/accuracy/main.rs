@@ -26,6 +26,7 @@ fn main() {
     section::reading::write(&mut report, &methods);
     section::synthetic::write(&mut report, &methods);
     section::takes::write(&mut report, &methods);
+    section::strengths::write(&mut report);
     section::wrong_bases::write(&mut report);
     section::calibration::write(&mut report);
     report.save();

@@ -2,6 +2,7 @@
 
 pub mod calibration;
 pub mod reading;
+pub mod strengths;
 pub mod synthetic;
 pub mod takes;
 pub mod wrong_bases;

@@ -1,11 +1,7 @@
 //! The command line: tokens made, a login kept, refusals explained, an audit log verified, sessions set up, curves with their
 //! standard errors.
 
-use std::{
-    io::Write as _,
-    path::{Path, PathBuf},
-    process::{Command, Output, Stdio},
-};
+use std::path::Path;
 
 use frontalis_analysis::{
     format::trc::{self, TrcFrame, TrcTake},
@@ -13,70 +9,10 @@ use frontalis_analysis::{
 };
 use frontalis_proto::v1::MarkerFrame;
 use frontalis_server::service::audit::FILE_NAME;
-use harness::{Protection, TestPerformance, TestServer, program};
+use harness::{Protection, TestPerformance, TestServer};
 use serde_json::Value;
-use tempfile::TempDir;
 
-/// A person at a terminal, with an account of its own.
-struct Person {
-    program: PathBuf,
-    home: TempDir,
-}
-
-impl Person {
-    fn new() -> Self {
-        Self {
-            program: program("frontalis"),
-            home: tempfile::tempdir().unwrap(),
-        }
-    }
-
-    /// Types a line, with `input` on standard input.
-    async fn types(&self, line: &str, input: &str) -> Output {
-        let mut child = Command::new(&self.program)
-            .args(line.split_whitespace())
-            .env("XDG_CONFIG_HOME", self.home.path())
-            .env_remove("FRONTALIS_SERVER")
-            .env_remove("FRONTALIS_TOKEN")
-            .stdin(Stdio::piped())
-            .stdout(Stdio::piped())
-            .stderr(Stdio::piped())
-            .spawn()
-            .unwrap();
-        let mut stdin = child.stdin.take().unwrap();
-        let input = input.to_owned();
-        let waiting = tokio::task::spawn_blocking(move || {
-            // A command that reads nothing may be gone already.
-            drop(stdin.write_all(input.as_bytes()));
-            drop(stdin);
-            child.wait_with_output()
-        });
-        waiting.await.unwrap().unwrap()
-    }
-
-    /// A line that succeeds; what it printed.
-    async fn does(&self, line: &str) -> String {
-        self.does_with(line, "").await
-    }
-
-    async fn does_with(&self, line: &str, input: &str) -> String {
-        let output = self.types(line, input).await;
-        let complained = text_of(&output.stderr);
-        assert!(output.status.success(), "{line}\n{complained}");
-        text_of(&output.stdout)
-    }
-
-    /// A line that fails; what it complained.
-    async fn fails(&self, line: &str) -> String {
-        let output = self.types(line, "").await;
-        assert_eq!(output.status.code(), Some(1), "{line}");
-        text_of(&output.stderr)
-    }
-
-    fn login_file(&self) -> PathBuf {
-        self.home.path().join("frontalis/credentials.toml")
-    }
-}
+use crate::person::{Person, text_of};
 
 #[tokio::test(flavor = "multi_thread", worker_threads = 2)]
 async fn a_login_is_kept_for_its_server_and_forgotten_on_request() {
@@ -271,9 +207,9 @@ async fn a_file_and_a_session_give_the_same_standard_errors() {
     let (anna, server) = (Person::new(), TestServer::start().await);
     server.import_reference().await;
     let url = server.url();
-    let take = anna.home.path().join("take.trc").display().to_string();
+    let take = anna.home().join("take.trc").display().to_string();
     std::fs::write(&take, a_take()).unwrap();
-    let package = anna.home.path().join("reference.zip").display().to_string();
+    let package = anna.home().join("reference.zip").display().to_string();
     std::fs::write(&package, harness::reference_package()).unwrap();
     let settings = "--smoothing 0.3 --bounds jaw_rotation=0..0.4";
     anna.does(&format!(
@@ -359,8 +295,4 @@ fn a_take() -> String {
 fn mode(path: &Path) -> u32 {
     use std::os::unix::fs::PermissionsExt as _;
     std::fs::metadata(path).unwrap().permissions().mode() & 0o777
-}
-
-fn text_of(bytes: &[u8]) -> String {
-    String::from_utf8_lossy(bytes).into_owned()
 }

@@ -53,17 +53,21 @@ impl TestPerformance {
     }
 
     /// One frame, in millimeters; the capture clock starts with the performance.
+    pub fn frame(&self, number: u64) -> MarkerFrame {
+        self.frame_of(number, &self.activations(number))
+    }
+
+    /// The frame of that number with other contractions, one a muscle of the actor.
     #[expect(
         clippy::cast_possible_truncation,
         reason = "a frame number times its period is far below 2^63 nanoseconds"
     )]
-    pub fn frame(&self, number: u64) -> MarkerFrame {
-        let activations = self.activations(number);
+    pub fn frame_of(&self, number: u64, activations: &[f64]) -> MarkerFrame {
         MarkerFrame {
             number,
             capture_time_nanos: (number as f64 * 1e9 / self.rate_hz).round() as i64,
             positions: (0..self.n_markers())
-                .flat_map(|marker| self.position_mm(marker, &activations, number))
+                .flat_map(|marker| self.position_mm(marker, activations, number))
                 .collect(),
             ..MarkerFrame::default()
         }

@@ -15,7 +15,7 @@ pub use error::PackageError;
 
 use crate::{
     face::actor::{Actor, ActorParts, ActorWarning, RankPolicy},
-    format::glb,
+    format::glb::{self, MorphMesh},
     space::LengthUnit,
 };
 
@@ -77,6 +77,11 @@ pub fn write_zip(actor: &Actor) -> Vec<u8> {
 /// Writes an actor as a GLB, in meters; the same actor gives the same bytes.
 pub fn write_glb(actor: &Actor) -> Vec<u8> {
     in_glb::write(actor)
+}
+
+/// An actor's neutral face with one morph target a muscle, meters: the mesh of [`write_glb`].
+pub fn morph_mesh(actor: &Actor) -> MorphMesh {
+    in_glb::morph_mesh(actor)
 }
 
 #[cfg(test)]

@@ -5,10 +5,12 @@
 //! say anything about it.
 
 mod accessor;
+mod animation;
 mod document;
 mod error;
 mod write;
 
+pub use animation::{AnimationError, AnimationWriter};
 pub use error::{AccessorProblem, GlbError};
 pub use write::write;
 

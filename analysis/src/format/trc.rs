@@ -11,7 +11,7 @@ mod rows;
 mod write;
 
 pub use error::{TrcError, TrcProblem};
-pub use write::write;
+pub use write::{TrcHeading, TrcWriteError, TrcWriter, write};
 
 use crate::space::LengthUnit;
 

@@ -67,6 +67,10 @@ pub(super) struct Estimator {
     equations: NormalEquations,
     coupling: Coupling,
     mirrors: Mirrors,
+    /// What each muscle does in this frame, once masked markers are counted as hidden.
+    parts: Vec<Part>,
+    /// What is left in a frame of a contraction that is not observed.
+    decay: f64,
     prior: Option<TemporalPrior>,
     noise: Noise,
     posterior: Posterior,
@@ -128,6 +132,8 @@ impl Estimator {
             equations: NormalEquations::new(model, has_motion, qp.stride()),
             coupling: Coupling::new(model, muscles, mirrors.pairs(), objective, size),
             mirrors,
+            parts: vec![Part::Held; m],
+            decay: 1.0,
             prior,
             noise: Noise::new(n),
             posterior: Posterior::with_capacity(size),
@@ -174,6 +180,11 @@ impl Estimator {
         }
     }
 
+    /// What each muscle did in the last frame.
+    pub fn parts(&self) -> &[Part] {
+        &self.parts
+    }
+
     /// One sigma of each contraction.
     pub fn standard_errors(&self) -> &[f64] {
         &self.standard_errors
@@ -214,6 +225,7 @@ impl Estimator {
                     .begin(frame.model, frame.evidence, frame.stabilized);
             }
             self.weigh(frame.evidence, round);
+            self.count_masked_as_hidden(frame.model, frame.evidence);
             self.equations
                 .reweigh(frame.model, frame.evidence, &self.weights);
             self.equations
@@ -222,22 +234,26 @@ impl Estimator {
             turned = self.turn(motion);
             self.measure(frame, motion, x);
         }
-        self.mirrors.end(frame.evidence, x);
+        self.mirrors.end(&self.parts, x);
         self.learn(frame.evidence, x)?;
         report.ok_or(BoxQpError::Budget(ROUNDS))
     }
 
     fn begin(&mut self, frame: &mut Frame<'_>, motion: &Stabilizer, x: &[f64]) {
-        for (i, part) in frame.evidence.parts.iter().enumerate() {
-            let own = self.boxes[i];
-            self.expected[i] = x[i];
-            self.bounds[i] = if *part == Part::Held { [x[i]; 2] } else { own };
-            if *part == Part::Unobserved {
-                self.expected[i] = (x[i] * frame.decay).max(own[0]);
+        self.parts.copy_from_slice(&frame.evidence.parts);
+        self.decay = frame.decay;
+        self.expected.copy_from_slice(x);
+        for (i, &before) in x.iter().enumerate() {
+            self.bounds[i] = match self.parts[i] {
+                Part::Held => [before; 2],
+                Part::Solved | Part::Unobserved => self.boxes[i],
+            };
+            if self.parts[i] == Part::Unobserved {
+                self.let_go(i);
             }
         }
-        let elapsed_secs = frame.elapsed / self.rate_hz;
-        self.mirrors.begin(frame.evidence, elapsed_secs);
+        self.mirrors
+            .begin(&self.parts, frame.elapsed / self.rate_hz);
         if let Some(prior) = &mut self.prior {
             prior.begin(frame.elapsed);
         }
@@ -245,6 +261,26 @@ impl Estimator {
         self.swaps.clear();
         if self.robust {
             self.undo_swaps(frame, motion, x);
+        }
+    }
+
+    fn let_go(&mut self, muscle: usize) {
+        let [lower, _] = self.boxes[muscle];
+        self.expected[muscle] = (self.expected[muscle] * self.decay).max(lower);
+    }
+
+    /// A muscle whose markers are masked is as little observed as one whose markers are hidden. It is let go and does not follow
+    /// its mirror image: most masks last for a frame, in which to hold still is best.
+    fn count_masked_as_hidden(&mut self, model: &MarkerModel, evidence: &Evidence) {
+        if evidence.used.iter().all(|&j| self.weights[j] > 0.0) {
+            return;
+        }
+        for muscle in 0..self.parts.len() {
+            let is_trusted = |j: usize| self.weights[j] > 0.0;
+            if self.parts[muscle] == Part::Solved && !evidence.tells(model, muscle, is_trusted) {
+                self.parts[muscle] = Part::Unobserved;
+                self.let_go(muscle);
+            }
         }
     }
 

@@ -206,23 +206,35 @@ impl Evidence {
     fn find_parts(&mut self, model: &MarkerModel) {
         for (index, region) in self.regions.iter().enumerate() {
             for i in model.own_muscles[index].clone() {
-                // Regions apart, a muscle is observed by its own region only.
-                let counts = |j: &usize| {
-                    self.mode == RegionMode::Joint || model.own_markers[index].contains(j)
-                };
-                let energy = |j: usize| model.displacement(i, j).norm_squared();
-                let used = self.used.iter().copied();
-                let seen: f64 = used.filter(counts).map(energy).sum();
-                let all: f64 = (0..model.n_markers()).filter(counts).map(energy).sum();
                 self.parts[i] = if region.held.is_some() {
                     Part::Held
-                } else if seen <= LEAST_ENERGY_SHARE * all {
-                    Part::Unobserved
-                } else {
+                } else if self.tells(model, i, |_| true) {
                     Part::Solved
+                } else {
+                    Part::Unobserved
                 };
             }
         }
+    }
+
+    /// Whether the used markers that are `trusted` tell what a muscle does.
+    pub fn tells(
+        &self,
+        model: &MarkerModel,
+        muscle: usize,
+        trusted: impl Fn(usize) -> bool,
+    ) -> bool {
+        let own = model.own_muscles.iter().position(|it| it.contains(&muscle));
+        // Regions apart, a muscle is observed by its own region only.
+        let counts = |j: &usize| {
+            self.mode == RegionMode::Joint
+                || own.is_some_and(|it| model.own_markers[it].contains(j))
+        };
+        let energy = |j: usize| model.displacement(muscle, j).norm_squared();
+        let used = self.used.iter().copied().filter(|&j| trusted(j));
+        let seen: f64 = used.filter(counts).map(energy).sum();
+        let all: f64 = (0..model.n_markers()).filter(counts).map(energy).sum();
+        seen > LEAST_ENERGY_SHARE * all
     }
 
     /// The sums over the used markers: those over all of them less what is hidden, unless most is.

@@ -47,6 +47,15 @@ pub struct MuscleRange {
     pub verdict: Verdict,
 }
 
+impl MuscleRange {
+    /// Says nothing of the draft, because the neutral face is in doubt.
+    pub fn withhold(&mut self) {
+        if self.verdict != Verdict::NotYetSeen {
+            self.verdict = Verdict::NeutralInDoubt;
+        }
+    }
+}
+
 /// The first and the ninety-ninth percentile.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Percentiles {
@@ -72,6 +81,8 @@ pub enum Verdict {
     WrongDirection,
     /// The markers hardly tell it from noise or from other muscles.
     HardlyObservable,
+    /// Nothing can be said while the neutral face is in doubt.
+    NeutralInDoubt,
 }
 
 /// One frame for the tracker; everything by muscle, in the solver's order.
@@ -178,6 +189,7 @@ impl Verdict {
             Self::TooStrong => "TOO_STRONG",
             Self::WrongDirection => "WRONG_DIRECTION",
             Self::HardlyObservable => "HARDLY_OBSERVABLE",
+            Self::NeutralInDoubt => "NEUTRAL_IN_DOUBT",
         }
     }
 }

@@ -13,6 +13,11 @@ pub fn actor_name(id: &str) -> String {
     full_name("actors/", id)
 }
 
+/// `takes/{id}` from an id or a full name.
+pub fn take_name(id: &str) -> String {
+    full_name("takes/", id)
+}
+
 /// The id in `actors/{id}` or `sessions/{id}`.
 pub fn short_id(name: &str) -> &str {
     name.rsplit_once('/').map_or(name, |(_, id)| id)

@@ -24,15 +24,15 @@ pub struct ObjectiveArgs {
     robust: Option<bool>,
 
     /// Smooth the curves, 0 (off) to 1: holds get calmer, jumps pass, more lags more [default: 0.5]
-    #[arg(long, value_name = "STRENGTH", value_parser = numbers::strength)]
+    #[arg(long, value_name = "STRENGTH", value_parser = numbers::strength, allow_negative_numbers = true)]
     smoothing: Option<f32>,
 
     /// Keep relaxed muscles at 0, 0 (off) to 1: more keeps weak contractions there too [default: 0.5]
-    #[arg(long, value_name = "STRENGTH", value_parser = numbers::strength)]
+    #[arg(long, value_name = "STRENGTH", value_parser = numbers::strength, allow_negative_numbers = true)]
     sparsity: Option<f32>,
 
     /// Draw a muscle and its mirror image together, 0 (off) to 1: more hides what is one-sided [default: 0]
-    #[arg(long, value_name = "STRENGTH", value_parser = numbers::strength)]
+    #[arg(long, value_name = "STRENGTH", value_parser = numbers::strength, allow_negative_numbers = true)]
     symmetry: Option<f32>,
 
     /// Bounds of one muscle within 0 to 2, once for each muscle; `none`: no muscle has its own [default: 0..1, with --exaggeration 0..2]

@@ -69,11 +69,12 @@ pub struct RecenterArgs {
 #[derive(Debug, Args)]
 #[command(
     after_help = "Only the settings that are given change. Lists are replaced as a whole.
---plain=false brings the default terms back.
+--plain=false brings back the terms that --plain switched off.
+Defaults in brackets are those of a new session: what is not given stays as it is.
 
 Examples:
   frontalis session update take-1 --exaggeration=false --actor-revision 2
-  frontalis session update take-1 --smoothing 0.2 --bounds jaw=0..0.8 --exclusive none"
+  frontalis session update take-1 --smoothing 0.2 --bounds jaw_rotation=0..0.8 --exclusive none"
 )]
 pub struct UpdateArgs {
     /// The session

@@ -1,9 +1,9 @@
-//! Actors and sessions as tables, with units in the headings.
+//! Actors, sessions and takes as tables, with units in the headings.
 
 use comfy_table::{ContentArrangement, Table, presets};
 use frontalis_client::proto::{
     Actor, CaptureKind, ControlRange, FaceRegion, RegionMode, Role, Server, Session,
-    SessionSettings, SessionState, SessionStatus,
+    SessionSettings, SessionState, SessionStatus, Take,
 };
 
 use super::trust;
@@ -99,6 +99,44 @@ pub fn actor(actor: &Actor) -> String {
         )
     }));
     parts.join("\n")
+}
+
+/// One line a take.
+pub fn takes(takes: &[Take]) -> Table {
+    let mut table = table(&[
+        "take",
+        "session",
+        "actor",
+        "slate",
+        "number",
+        "state",
+        "frames",
+        "first",
+        "last",
+        "size (MB)",
+        "circled",
+        "notes",
+    ]);
+    for take in takes {
+        let name = take.state().as_str_name().trim_start_matches("TAKE_STATE_");
+        let state = name.to_ascii_lowercase().replace('_', " ");
+        let recovered = if take.recovered { ", recovered" } else { "" };
+        table.add_row([
+            short_id(&take.name).to_owned(),
+            short_id(&take.session).to_owned(),
+            short_id(&take.actor).to_owned(),
+            take.slate.clone(),
+            take.number.to_string(),
+            format!("{state}{recovered}"),
+            take.n_frames.to_string(),
+            take.first_frame.to_string(),
+            take.last_frame.to_string(),
+            format!("{:.1}", take.n_bytes as f64 / 1e6),
+            if take.circled { "yes" } else { "" }.to_owned(),
+            take.notes.clone(),
+        ]);
+    }
+    table
 }
 
 /// One line a session.

@@ -58,7 +58,7 @@ pub struct Judged<'a> {
 pub fn findings(judged: &[Judged<'_>]) -> Vec<String> {
     let (unseen, seen): (Vec<_>, Vec<_>) = judged
         .iter()
-        .filter(|it| !matches!(it.verdict, RangeVerdict::Sound | RangeVerdict::Unspecified))
+        .filter(|it| !says_nothing(it.verdict))
         .partition(|it| it.verdict == RangeVerdict::NotYetSeen);
     let finding =
         |it: &&Judged<'_>| format!("{}: {}. {}", it.muscle, verdict(it.verdict), it.sentence);
@@ -71,6 +71,14 @@ pub fn findings(judged: &[Judged<'_>]) -> Vec<String> {
         ));
     }
     findings
+}
+
+/// Of a neutral face in doubt is said in a line of its own.
+fn says_nothing(verdict: RangeVerdict) -> bool {
+    matches!(
+        verdict,
+        RangeVerdict::Sound | RangeVerdict::NeutralInDoubt | RangeVerdict::Unspecified
+    )
 }
 
 /// The doubt with its figures; `advice` says what to do.

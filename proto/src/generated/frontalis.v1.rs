@@ -2104,12 +2104,14 @@ pub enum RangeVerdict {
     Sound = 2,
     /// full contractions move the markers further than the draft does
     TooWeak = 3,
-    /// its own contractions never come near 1
+    /// its own contractions never come near 1, whether the actor holds back or the draft goes too far
     TooStrong = 4,
     /// the markers move against it
     WrongDirection = 5,
     /// the markers hardly tell it from noise or from other muscles
     HardlyObservable = 6,
+    /// nothing can be said of shapes while the neutral face is in doubt
+    NeutralInDoubt = 7,
 }
 impl RangeVerdict {
     /// String value of the enum field names used in the ProtoBuf definition.
@@ -2125,6 +2127,7 @@ impl RangeVerdict {
             Self::TooStrong => "RANGE_VERDICT_TOO_STRONG",
             Self::WrongDirection => "RANGE_VERDICT_WRONG_DIRECTION",
             Self::HardlyObservable => "RANGE_VERDICT_HARDLY_OBSERVABLE",
+            Self::NeutralInDoubt => "RANGE_VERDICT_NEUTRAL_IN_DOUBT",
         }
     }
     /// Creates an enum from field names used in the ProtoBuf definition.
@@ -2137,6 +2140,7 @@ impl RangeVerdict {
             "RANGE_VERDICT_TOO_STRONG" => Some(Self::TooStrong),
             "RANGE_VERDICT_WRONG_DIRECTION" => Some(Self::WrongDirection),
             "RANGE_VERDICT_HARDLY_OBSERVABLE" => Some(Self::HardlyObservable),
+            "RANGE_VERDICT_NEUTRAL_IN_DOUBT" => Some(Self::NeutralInDoubt),
             _ => None,
         }
     }

@@ -9357,6 +9357,7 @@ impl serde::Serialize for RangeVerdict {
             Self::TooStrong => "RANGE_VERDICT_TOO_STRONG",
             Self::WrongDirection => "RANGE_VERDICT_WRONG_DIRECTION",
             Self::HardlyObservable => "RANGE_VERDICT_HARDLY_OBSERVABLE",
+            Self::NeutralInDoubt => "RANGE_VERDICT_NEUTRAL_IN_DOUBT",
         };
         serializer.serialize_str(variant)
     }
@@ -9375,6 +9376,7 @@ impl<'de> serde::Deserialize<'de> for RangeVerdict {
             "RANGE_VERDICT_TOO_STRONG",
             "RANGE_VERDICT_WRONG_DIRECTION",
             "RANGE_VERDICT_HARDLY_OBSERVABLE",
+            "RANGE_VERDICT_NEUTRAL_IN_DOUBT",
         ];
 
         struct GeneratedVisitor;
@@ -9422,6 +9424,7 @@ impl<'de> serde::Deserialize<'de> for RangeVerdict {
                     "RANGE_VERDICT_TOO_STRONG" => Ok(RangeVerdict::TooStrong),
                     "RANGE_VERDICT_WRONG_DIRECTION" => Ok(RangeVerdict::WrongDirection),
                     "RANGE_VERDICT_HARDLY_OBSERVABLE" => Ok(RangeVerdict::HardlyObservable),
+                    "RANGE_VERDICT_NEUTRAL_IN_DOUBT" => Ok(RangeVerdict::NeutralInDoubt),
                     _ => Err(serde::de::Error::unknown_variant(value, FIELDS)),
                 }
             }

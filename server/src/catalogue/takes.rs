@@ -147,7 +147,7 @@ impl Catalogue {
                 new.recovered,
             ],
         )?;
-        self.found_take(&connection, &new.id)
+        found(&connection, &new.id)
     }
 
     /// One take.
@@ -210,7 +210,7 @@ impl Catalogue {
                 labels.notes,
             ],
         )?;
-        self.found_take(&connection, id)
+        found(&connection, id)
     }
 
     /// Stores how a take ended.
@@ -234,7 +234,7 @@ impl Catalogue {
                 ended.recovered,
             ],
         )?;
-        self.found_take(&connection, &ended.id)
+        found(&connection, &ended.id)
     }
 
     /// Notes that a take is to be erased; what a crash leaves of it is erased at the next start (CONTRACTS U-12).
@@ -274,10 +274,10 @@ impl Catalogue {
         change.commit()?;
         Ok(())
     }
+}
 
-    fn found_take(&self, connection: &Connection, id: &TakeId) -> Result<TakeRow, CatalogueError> {
-        find(connection, id)?.ok_or(CatalogueError::NoTake)
-    }
+fn found(connection: &Connection, id: &TakeId) -> Result<TakeRow, CatalogueError> {
+    find(connection, id)?.ok_or(CatalogueError::NoTake)
 }
 
 fn next_number(connection: &Connection, slate: &str) -> Result<u32, CatalogueError> {

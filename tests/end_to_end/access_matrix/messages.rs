@@ -104,8 +104,18 @@ fn message(method: &str, variant: Variant, id: &str) -> Vec<u8> {
             v1::GetTakeRequest { name: take }.encode_to_vec()
         }
         "ServerReflectionInfo" => LIST_SERVICES.to_vec(),
-        "GetServer" | "ImproveBasis" | "TrainRegions" | "PublishImages" | "UpdateTake"
-        | "Check" | "Watch" => Vec::new(),
+        "UpdateTake" => v1::UpdateTakeRequest {
+            take: Some(v1::Take {
+                name: take,
+                circled: true,
+                ..v1::Take::default()
+            }),
+            ..v1::UpdateTakeRequest::default()
+        }
+        .encode_to_vec(),
+        "GetServer" | "ImproveBasis" | "TrainRegions" | "PublishImages" | "Check" | "Watch" => {
+            Vec::new()
+        }
         _ => panic!("{method} has no message"),
     }
 }

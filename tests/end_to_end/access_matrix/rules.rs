@@ -27,6 +27,8 @@ pub(super) enum Target {
     Actor,
     /// The id of a session that shall be made.
     NewSession,
+    /// A take, which is seen where its session is.
+    Take,
     /// A list: what is not seen is not in it.
     List,
     /// Whatever is named is not looked at: the server itself, what is not built yet, what is new.
@@ -65,7 +67,7 @@ pub(super) enum Expected {
 }
 
 use May::{Everywhere as E, Never as N, Own as O};
-use Target::{Actor, List, NewSession, Nothing, Session, SessionName};
+use Target::{Actor, List, NewSession, Nothing, Session, SessionName, Take};
 use Then::{Fails, Succeeds};
 
 const NOT_BUILT: Then = Fails("NOT_IMPLEMENTED");
@@ -91,14 +93,14 @@ const TABLE: &[(&str, [May; 4], Target, Then)] = &[
     ("frontalis.v1.ActorService/DeleteActor",       [E, N, N, N], Actor,       Succeeds),  // delete
     ("frontalis.v1.ActorService/ImproveBasis",      [E, N, N, N], Nothing,     NOT_BUILT), // improve actors
     ("frontalis.v1.ActorService/TrainRegions",      [E, N, N, N], Nothing,     NOT_BUILT), // train actors
-    ("frontalis.v1.TakeService/StartTake",          [E, O, N, N], SessionName, NOT_BUILT), // start takes
-    ("frontalis.v1.TakeService/StopTake",           [E, E, N, N], Nothing,     NOT_BUILT), // stop takes
-    ("frontalis.v1.TakeService/GetTake",            [E, E, N, N], Nothing,     NOT_BUILT), // read takes
-    ("frontalis.v1.TakeService/ListTakes",          [E, O, N, N], SessionName, NOT_BUILT), // read takes
-    ("frontalis.v1.TakeService/UpdateTake",         [E, E, N, N], Nothing,     NOT_BUILT), // label takes
-    ("frontalis.v1.TakeService/DeleteTake",         [E, N, N, N], Nothing,     NOT_BUILT), // delete
-    ("frontalis.v1.TakeService/ExportTake",         [E, E, N, N], Nothing,     NOT_BUILT), // export
-    ("frontalis.v1.TakeService/ResolveTake",        [E, N, N, N], Nothing,     NOT_BUILT), // re-solve
+    ("frontalis.v1.TakeService/StartTake",          [E, O, N, N], Session,     Succeeds),  // start takes
+    ("frontalis.v1.TakeService/StopTake",           [E, O, N, N], Take,        Succeeds),  // stop takes
+    ("frontalis.v1.TakeService/GetTake",            [E, O, N, N], Take,        Succeeds),  // read takes
+    ("frontalis.v1.TakeService/ListTakes",          [E, O, N, N], SessionName, Succeeds),  // read takes
+    ("frontalis.v1.TakeService/UpdateTake",         [E, O, N, N], Take,        Succeeds),  // label takes
+    ("frontalis.v1.TakeService/DeleteTake",         [E, N, N, N], Take,        Succeeds),  // delete
+    ("frontalis.v1.TakeService/ExportTake",         [E, O, N, N], Take,        Succeeds),  // export
+    ("frontalis.v1.TakeService/ResolveTake",        [E, N, N, N], Take,        NOT_BUILT), // re-solve
     ("frontalis.v1.ServerService/GetServer",        [E, E, E, E], Nothing,     Succeeds),  // every role
     ("grpc.health.v1.Health/Watch",                 [E, E, E, E], Nothing,     Succeeds),  // every role
     ("grpc.reflection.v1.ServerReflection/ServerReflectionInfo",      [E, E, E, E], Nothing, Succeeds), // every role
@@ -175,8 +177,10 @@ impl Rule {
             }
             NewSession | SessionName if reaches => Expected::Passes(self.then),
             NewSession => Expected::Scope,
-            Session | Actor if reaches && object != Object::Missing => Expected::Passes(self.then),
-            SessionName | Session | Actor => Expected::NotFound,
+            Session | Actor | Take if reaches && object != Object::Missing => {
+                Expected::Passes(self.then)
+            }
+            SessionName | Session | Actor | Take => Expected::NotFound,
         }
     }
 }
@@ -196,7 +200,10 @@ impl Expected {
             }
             Self::Role => matches!(answered, ("PERMISSION_DENIED" | "403", "ROLE")),
             Self::Scope => matches!(answered, ("PERMISSION_DENIED" | "403", "SCOPE")),
-            Self::NotFound => matches!(answered, ("NOT_FOUND" | "404", "SESSION" | "ACTOR")),
+            Self::NotFound => matches!(
+                answered,
+                ("NOT_FOUND" | "404", "SESSION" | "ACTOR" | "TAKE")
+            ),
         }
     }
 }

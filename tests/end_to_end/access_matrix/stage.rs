@@ -2,6 +2,7 @@
 
 use std::sync::atomic::{AtomicU32, Ordering};
 
+use frontalis_proto::v1::StartTakeRequest;
 use harness::{TestAuthority, TestServer, assert_eventually, toy_files, zip};
 
 use super::{
@@ -83,10 +84,18 @@ impl Stage {
             ("CreateSession", Object::Missing) => self.new_id("elsewhere-"),
             ("ImportActor", _) => "imported".to_owned(),
             (_, Object::Missing) => object.id().to_owned(),
-            ("PublishMarkers" | "EndSession", _) => {
+            ("PublishMarkers" | "EndSession" | "StartTake", _) => {
                 let id = self.new_id(object.begins());
                 self.make_session(&id, object.id()).await;
                 id
+            }
+            (
+                "StopTake" | "GetTake" | "UpdateTake" | "DeleteTake" | "ExportTake" | "ResolveTake",
+                _,
+            ) => {
+                let session = self.new_id(object.begins());
+                self.make_session(&session, object.id()).await;
+                self.make_take(&session).await
             }
             ("DeleteActor", _) => {
                 let id = self.new_id(object.begins());
@@ -100,6 +109,17 @@ impl Stage {
     fn new_id(&self, begins: &str) -> String {
         let n = self.n_made.fetch_add(1, Ordering::Relaxed);
         format!("{begins}made-{n}")
+    }
+
+    /// The id of a take under way.
+    async fn make_take(&self, session: &str) -> String {
+        let request = StartTakeRequest {
+            session: format!("sessions/{session}"),
+            ..StartTakeRequest::default()
+        };
+        let mut takes = self.server.takes().await;
+        let take = takes.start_take(request).await.unwrap().into_inner().take;
+        take.unwrap().name.replace("takes/", "")
     }
 
     async fn make_session(&self, id: &str, actor: &str) {

@@ -61,6 +61,25 @@ fn lag(found: &[f64], truth: &[f64]) -> isize {
     best.1
 }
 
+/// How late the curves are whose truth varies, in the mean, to a part of a frame: where the parabola through the correlations one
+/// frame early, on time and one frame late peaks.
+pub fn mean_lag(found: &Curves, truth: &Curves) -> f64 {
+    let (mut sum, mut n_curves) = (0.0, 0.0);
+    for muscle in 0..truth.n_muscles() {
+        let (found, curve) = (found.of_muscle(muscle), truth.of_muscle(muscle));
+        if standard_deviation(&curve) >= VARIES {
+            let n = curve.len();
+            let early = correlation(&found[..n - 1], &curve[1..]);
+            let on_time = correlation(&found, &curve);
+            let late = correlation(&found[1..], &curve[..n - 1]);
+            let bend = early - 2.0 * on_time + late;
+            sum += 0.5 * (early - late) / bend;
+            n_curves += 1.0;
+        }
+    }
+    sum / f64::max(n_curves, 1.0)
+}
+
 fn correlation(a: &[f64], b: &[f64]) -> f64 {
     let n = a.len() as f64;
     let mean = |it: &[f64]| it.iter().sum::<f64>() / n;

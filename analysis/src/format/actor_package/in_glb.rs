@@ -110,9 +110,16 @@ pub(super) fn write(actor: &Actor) -> Vec<u8> {
     };
     let manifest = serde_json::to_value(&manifest)
         .expect("invariant: names and finite numbers are always JSON");
+    let mesh = morph_mesh(actor);
+    glb::write(&mesh, Map::from_iter([(KEY.to_owned(), manifest)]))
+}
+
+/// The neutral face, and its muscles at full contraction.
+pub(super) fn morph_mesh(actor: &Actor) -> MorphMesh {
+    let muscles = actor.muscle_set().muscles();
     let vertices = actor.mesh().vertices.iter();
     let targets = muscles.iter().zip(&actor.basis().displacements_cm);
-    let mesh = MorphMesh {
+    MorphMesh {
         positions_m: vertices.map(|it| in_meters(&it.0.coords)).collect(),
         triangles: actor.mesh().triangles.clone(),
         targets: targets
@@ -122,8 +129,7 @@ pub(super) fn write(actor: &Actor) -> Vec<u8> {
             })
             .collect(),
         extras: None,
-    };
-    glb::write(&mesh, Map::from_iter([(KEY.to_owned(), manifest)]))
+    }
 }
 
 fn in_meters(vector_cm: &Vector3<f64>) -> [f32; 3] {

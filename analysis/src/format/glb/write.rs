@@ -3,11 +3,11 @@
 use std::borrow::Cow;
 
 use gltf::binary::{Glb, Header};
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
 use super::{MAGIC, MorphMesh};
 
-const FLOAT: u32 = 5126;
+pub(super) const FLOAT: u32 = 5126;
 const UNSIGNED_INT: u32 = 5125;
 const ARRAY_BUFFER: u32 = 34962;
 const ELEMENT_ARRAY_BUFFER: u32 = 34963;
@@ -15,8 +15,14 @@ const ELEMENT_ARRAY_BUFFER: u32 = 34963;
 /// Writes `mesh` as a GLB with one node, its targets as sparse accessors where that is shorter.
 ///
 /// `targetNames` joins `extras`, which must be a JSON object. Target names must all be there, or none.
-pub fn write(mesh: &MorphMesh, mut extras: serde_json::Map<String, Value>) -> Vec<u8> {
+pub fn write(mesh: &MorphMesh, extras: Map<String, Value>) -> Vec<u8> {
     let mut file = Parts::default();
+    let face = face(&mut file, mesh, extras);
+    file.finish(&face)
+}
+
+/// The mesh's JSON, with its bytes and accessors added to `file`.
+pub(super) fn face(file: &mut Parts, mesh: &MorphMesh, mut extras: Map<String, Value>) -> Value {
     let positions = file.vectors(&mesh.positions_m, Some(ARRAY_BUFFER));
     let indices = file.indices(&mesh.triangles);
     let targets: Vec<_> = mesh
@@ -33,19 +39,23 @@ pub fn write(mesh: &MorphMesh, mut extras: serde_json::Map<String, Value>) -> Ve
         primitive["targets"] = Value::Array(targets);
     }
     one_mesh["primitives"] = json!([primitive]);
-    file.finish(&one_mesh)
+    one_mesh
 }
 
 /// The growing lists of a document.
 #[derive(Default)]
-struct Parts {
-    bytes: Vec<u8>,
+pub(super) struct Parts {
+    pub(super) bytes: Vec<u8>,
     views: Vec<Value>,
     accessors: Vec<Value>,
 }
 
 impl Parts {
-    fn view(&mut self, bytes: impl IntoIterator<Item = u8>, target: Option<u32>) -> usize {
+    pub(super) fn view(
+        &mut self,
+        bytes: impl IntoIterator<Item = u8>,
+        target: Option<u32>,
+    ) -> usize {
         let start = self.bytes.len();
         self.bytes.extend(bytes);
         let mut view = json!({
@@ -58,7 +68,15 @@ impl Parts {
         self.views.len() - 1
     }
 
-    fn accessor(&mut self, accessor: Value) -> usize {
+    /// A view of bytes that are written behind all others.
+    pub(super) fn view_of_bytes_to_come(&mut self, n_bytes: u64) -> usize {
+        let start = self.bytes.len();
+        self.views
+            .push(json!({ "buffer": 0, "byteOffset": start, "byteLength": n_bytes }));
+        self.views.len() - 1
+    }
+
+    pub(super) fn accessor(&mut self, accessor: Value) -> usize {
         self.accessors.push(accessor);
         self.accessors.len() - 1
     }
@@ -107,17 +125,22 @@ impl Parts {
         }))
     }
 
-    fn finish(self, mesh: &Value) -> Vec<u8> {
-        let document = json!({
+    /// The document of one node with this mesh, beside `n_bytes` of binary data.
+    pub(super) fn document(&mut self, mesh: &Value, n_bytes: u64) -> Value {
+        json!({
             "asset": { "version": "2.0", "generator": concat!("frontalis ", env!("CARGO_PKG_VERSION")) },
             "scene": 0,
             "scenes": [{ "nodes": [0] }],
             "nodes": [{ "mesh": 0, "name": "face" }],
             "meshes": [mesh],
-            "accessors": self.accessors,
-            "bufferViews": self.views,
-            "buffers": [{ "byteLength": self.bytes.len() }],
-        });
+            "accessors": std::mem::take(&mut self.accessors),
+            "bufferViews": std::mem::take(&mut self.views),
+            "buffers": [{ "byteLength": n_bytes }],
+        })
+    }
+
+    fn finish(mut self, mesh: &Value) -> Vec<u8> {
+        let document = self.document(mesh, self.bytes.len() as u64);
         let glb = Glb {
             header: Header {
                 magic: MAGIC,

@@ -45,7 +45,7 @@ pub enum TrcProblem {
     NameCount {
         /// Declared.
         expected: usize,
-        /// Found before the first empty one.
+        /// Found before the first empty one; all of them if those are as many as declared.
         found: usize,
     },
     /// Two markers of one name.

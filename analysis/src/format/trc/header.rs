@@ -89,7 +89,13 @@ fn marker_names(line: &str, separator: char, expected: usize) -> Result<Vec<Stri
         .rposition(|it| !it.is_empty())
         .map_or(0, |it| it + 1);
     let names = &all[..named];
-    let found = names.iter().position(|it| it.is_empty()).unwrap_or(named);
+    let before_a_gap = names.iter().position(|it| it.is_empty()).unwrap_or(named);
+    // As many as declared, and behind an empty cell more: those would be markers without columns.
+    let found = if before_a_gap == expected {
+        names.iter().filter(|it| !it.is_empty()).count()
+    } else {
+        before_a_gap
+    };
     if found != expected {
         return Err(TrcProblem::NameCount { expected, found });
     }

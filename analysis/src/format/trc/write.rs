@@ -1,54 +1,180 @@
-//! Writing a take with tabs, as most programs expect it.
+//! Writing a take row by row with tabs, as most programs expect it.
 
-use std::fmt::{self, Write as _};
+use std::io::{self, Write};
 
 use super::{TrcFrame, TrcTake};
+use crate::space::LengthUnit;
 
-/// Writes a take; `name` goes into the first line. What is written reads back to the same bits.
-#[expect(clippy::missing_panics_doc, reason = "writing to a String cannot fail")]
-pub fn write(take: &TrcTake, name: &str) -> String {
-    let mut text = String::new();
-    header(&mut text, take, name).expect("invariant: a String accepts every write");
-    for frame in &take.frames {
-        row(&mut text, frame).expect("invariant: a String accepts every write");
-    }
-    text
+/// What stands above the rows.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TrcHeading<'a> {
+    /// A name for the take, for the first line.
+    pub name: &'a str,
+    /// Frames a second.
+    pub rate_hz: f64,
+    /// The unit of all positions.
+    pub unit: LengthUnit,
+    /// In column order.
+    pub marker_names: &'a [String],
+    /// The first row's number.
+    pub first_frame: u64,
+    /// How many rows follow.
+    pub n_frames: u64,
 }
 
-fn header(text: &mut String, take: &TrcTake, name: &str) -> fmt::Result {
-    let (rate, frames, markers) = (take.rate_hz, take.frames.len(), take.marker_names.len());
-    let (unit, name) = (take.unit.symbol(), one_cell(name));
-    let first = take.frames.first().map_or(1, |frame| frame.number);
-    writeln!(text, "PathFileType\t4\t(X/Y/Z)\t{name}")?;
+/// Why a TRC cannot be written.
+#[derive(Debug, thiserror::Error)]
+pub enum TrcWriteError {
+    /// The sink cannot take more.
+    #[error("the TRC cannot be written")]
+    Io(#[from] io::Error),
+    /// More or fewer rows than the heading states, which stands before them.
+    #[error("{found} rows were written; the heading states {expected}")]
+    FrameCount {
+        /// In the heading.
+        expected: u64,
+        /// Up to now.
+        found: u64,
+    },
+    /// A row of another number of markers.
+    #[error("a row has {found} positions; {expected} are expected")]
+    PositionCount {
+        /// Markers of the heading.
+        expected: usize,
+        /// In the row.
+        found: usize,
+    },
+}
+
+/// Writes a take row by row, so that an export never holds the whole of it.
+///
+/// What is written reads back to the same bits.
+#[derive(Debug)]
+pub struct TrcWriter<W> {
+    out: W,
+    n_markers: usize,
+    expected: u64,
+    written: u64,
+}
+
+impl<W: Write> TrcWriter<W> {
+    /// Writes the header.
+    ///
+    /// # Errors
+    ///
+    /// When `out` cannot be written.
+    pub fn new(mut out: W, heading: &TrcHeading<'_>) -> Result<Self, TrcWriteError> {
+        header(&mut out, heading)?;
+        Ok(Self {
+            out,
+            n_markers: heading.marker_names.len(),
+            expected: heading.n_frames,
+            written: 0,
+        })
+    }
+
+    /// Writes the next row.
+    ///
+    /// # Errors
+    ///
+    /// A row that is not the heading's, one too many, or a sink that cannot take it.
+    pub fn write_frame(&mut self, frame: &TrcFrame) -> Result<(), TrcWriteError> {
+        let (expected, found) = (self.n_markers, frame.positions.len());
+        if found != expected {
+            return Err(TrcWriteError::PositionCount { expected, found });
+        }
+        if self.written == self.expected {
+            return Err(self.frame_count(1));
+        }
+        row(&mut self.out, frame)?;
+        self.written += 1;
+        Ok(())
+    }
+
+    /// Hands the sink back, flushed.
+    ///
+    /// # Errors
+    ///
+    /// Fewer rows than the heading states, or a sink that cannot take them.
+    pub fn finish(mut self) -> Result<W, TrcWriteError> {
+        if self.written != self.expected {
+            return Err(self.frame_count(0));
+        }
+        self.out.flush()?;
+        Ok(self.out)
+    }
+
+    fn frame_count(&self, more: u64) -> TrcWriteError {
+        TrcWriteError::FrameCount {
+            expected: self.expected,
+            found: self.written + more,
+        }
+    }
+}
+
+/// Writes a take that is there as a whole; `name` goes into the first line. What is written reads back to the same bits.
+///
+/// # Panics
+///
+/// If a frame has not one position a marker.
+pub fn write(take: &TrcTake, name: &str) -> String {
+    let heading = TrcHeading {
+        name,
+        rate_hz: take.rate_hz,
+        unit: take.unit,
+        marker_names: &take.marker_names,
+        first_frame: take.frames.first().map_or(1, |frame| frame.number),
+        n_frames: take.frames.len() as u64,
+    };
+    let write_all = || {
+        let mut writer = TrcWriter::new(Vec::new(), &heading)?;
+        for frame in &take.frames {
+            writer.write_frame(frame)?;
+        }
+        writer.finish()
+    };
+    let bytes = write_all().expect("invariant: a Vec accepts every row of a sound take");
+    String::from_utf8(bytes).expect("invariant: only text was written")
+}
+
+fn header(out: &mut impl Write, heading: &TrcHeading<'_>) -> io::Result<()> {
+    let (rate, frames, markers) = (
+        heading.rate_hz,
+        heading.n_frames,
+        heading.marker_names.len(),
+    );
+    let (unit, name) = (heading.unit.symbol(), one_cell(heading.name));
+    let first = heading.first_frame;
+    writeln!(out, "PathFileType\t4\t(X/Y/Z)\t{name}")?;
     writeln!(
-        text,
+        out,
         "DataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\tOrigDataRate\tOrigDataStartFrame\tOrigNumFrames"
     )?;
     writeln!(
-        text,
+        out,
         "{rate}\t{rate}\t{frames}\t{markers}\t{unit}\t{rate}\t{first}\t{frames}"
     )?;
-    write!(text, "Frame#\tTime")?;
-    for name in &take.marker_names {
-        write!(text, "\t{}\t\t", one_cell(name))?;
+    write!(out, "Frame#\tTime")?;
+    for name in heading.marker_names {
+        write!(out, "\t{}\t\t", one_cell(name))?;
     }
-    write!(text, "\n\t")?;
+    write!(out, "\n\t")?;
     for marker in 1..=markers {
-        write!(text, "\tX{marker}\tY{marker}\tZ{marker}")?;
+        write!(out, "\tX{marker}\tY{marker}\tZ{marker}")?;
     }
-    writeln!(text, "\n")
+    writeln!(out, "\n")
 }
 
-fn row(text: &mut String, frame: &TrcFrame) -> fmt::Result {
-    write!(text, "{}\t{}", frame.number, frame.time_s)?;
+fn row(out: &mut impl Write, frame: &TrcFrame) -> io::Result<()> {
+    write!(out, "{}\t{}", frame.number, frame.time_s)?;
     for coordinate in frame.positions.iter().flatten() {
         if coordinate.is_nan() {
-            write!(text, "\t")?;
+            write!(out, "\t")?;
         } else {
-            write!(text, "\t{coordinate}")?;
+            write!(out, "\t{coordinate}")?;
         }
     }
-    writeln!(text)
+    writeln!(out)
 }
 
 /// A name without what would end its cell or its line.

@@ -25,8 +25,13 @@ impl ContractionSolver {
 
     /// Actor's indices of the muscles that the last frame could not tell, ascending.
     pub fn unobserved(&self) -> Vec<usize> {
-        let parts = self.evidence.iter().flat_map(|it| &it.parts);
+        let parts: &[Part] = match (&self.estimated, &self.evidence) {
+            (Some(estimated), _) if self.is_solved() => estimated.last().parts(),
+            (_, Some(evidence)) => &evidence.parts,
+            (_, None) => &[],
+        };
         let mut unobserved: Vec<usize> = parts
+            .iter()
             .zip(&self.model.muscles)
             .filter(|(part, _)| **part == Part::Unobserved)
             .map(|(_, &muscle)| muscle)

@@ -3,10 +3,7 @@
 //! Eyelids rest on one marker each, and blink together: while the marker is hidden, to hold the lid or to let it go misses every
 //! blink.
 
-use super::super::{
-    evidence::{Evidence, Part},
-    marker_model::MarkerModel,
-};
+use super::super::{evidence::Part, marker_model::MarkerModel};
 use crate::face::muscle::MuscleSet;
 
 /// What two mirror images differ by fades by 1/e in this time while one of them is hidden.
@@ -59,12 +56,12 @@ impl Mirrors {
         &self.pairs
     }
 
-    /// Finds out which muscles follow in a frame. `x` is that of the frame before, which saw `n_before`.
-    pub fn begin(&mut self, evidence: &Evidence, elapsed_secs: f64) {
+    /// Finds out which muscles follow in a frame, `elapsed_secs` after what was said before.
+    pub fn begin(&mut self, parts: &[Part], elapsed_secs: f64) {
         self.followers.clear();
         let fade = (-elapsed_secs / DIFFERENCE_SECS).exp();
         for (&[a, b], difference) in self.pairs.iter().zip(&mut self.differences) {
-            let (muscle, leader, sign) = match [a, b].map(|it| evidence.parts[it]) {
+            let (muscle, leader, sign) = match [a, b].map(|it| parts[it]) {
                 [Part::Unobserved, Part::Solved] => (a, b, 1.0),
                 [Part::Solved, Part::Unobserved] => (b, a, -1.0),
                 _ => continue,
@@ -79,9 +76,9 @@ impl Mirrors {
     }
 
     /// Remembers what the pairs differ by of which both are observed.
-    pub fn end(&mut self, evidence: &Evidence, x: &[f64]) {
+    pub fn end(&mut self, parts: &[Part], x: &[f64]) {
         for (&[a, b], difference) in self.pairs.iter().zip(&mut self.differences) {
-            if [a, b].map(|it| evidence.parts[it]) == [Part::Solved; 2] {
+            if [a, b].map(|it| parts[it]) == [Part::Solved; 2] {
                 *difference = x[a] - x[b];
             }
         }

@@ -1,9 +1,9 @@
 //! How far the contractions of a frame can be trusted.
 
-use super::{Estimator, Follower, UNKNOWN};
+use super::{super::evidence::Part, Estimator, Follower, UNKNOWN};
 
 /// Standard deviation of the difference of mirror images of which one is not observed.
-const MIRROR_DIFFERENCE: f64 = 0.1;
+const MIRROR_DIFFERENCE: f64 = 0.2;
 
 impl Estimator {
     /// What the posterior says, with two things that it does not know: the prior's share of the information was itself learnt
@@ -18,6 +18,13 @@ impl Estimator {
         let (noise, changing) = (self.noise.variance(), self.noise.changing_variance());
         let mut free = muscles.iter().enumerate().peekable();
         for (i, it) in self.standard_errors.iter_mut().enumerate() {
+            if self.parts[i] == Part::Unobserved {
+                // What was known of it fades as it does.
+                let known = UNKNOWN * UNKNOWN - *it * *it;
+                *it = (UNKNOWN * UNKNOWN - known * self.decay * self.decay).sqrt();
+                free.next_if(|(_, unknown)| **unknown == i);
+                continue;
+            }
             let mut lag = 0.0;
             let place = free.next_if(|(_, unknown)| **unknown == i);
             let variance = if let Some((place, _)) = place {

@@ -14,7 +14,8 @@ use crate::numeric::{
 /// Standard deviation of a contraction's step from frame to frame at 30 Hz, at least.
 const LEAST_STEP_AT_30_HZ: f64 = 0.008;
 
-/// Standard deviation of the step that a frame starts with.
+/// Standard deviation of the step that a frame starts with, however strong the smoothing: a jump must pass, or its marker would be
+/// taken for wrong.
 const START_STEP: f64 = 0.5;
 
 /// ν, degrees of freedom of the Student-t step.
@@ -116,8 +117,7 @@ impl TemporalPrior {
 
     /// Begins a frame that comes `elapsed` frames after the last one that was solved.
     pub fn begin(&mut self, elapsed: f64) {
-        let start = START_STEP * self.step_scale;
-        self.step_variance.fill(start * start);
+        self.step_variance.fill(START_STEP * START_STEP);
         self.elapsed = elapsed;
         self.is_wide = true;
     }

@@ -8,7 +8,7 @@ use tonic::{Request, Response, Status};
 
 use super::actors::not_built;
 use crate::{
-    catalogue::{TakeFilter, TakeRow},
+    catalogue::{CatalogueError, TakeFilter, TakeRow},
     name::{ActorId, SessionId, TakeId},
     service::{
         access::{Action, Caller},
@@ -45,8 +45,11 @@ impl TakesGrpc {
         caller.may(action)?;
         let id = TakeId::from_resource(name).map_err(FieldError::name("name"))?;
         let row = self.takes.get(&id).await?;
-        caller.may_in(action, &row.session)?;
-        Ok(row)
+        if caller.sees(&row.session) {
+            Ok(row)
+        } else {
+            Err(CatalogueError::NoTake.into())
+        }
     }
 }
 

@@ -112,6 +112,7 @@ fn verdict(verdict: Verdict) -> v1::RangeVerdict {
         Verdict::TooStrong => v1::RangeVerdict::TooStrong,
         Verdict::WrongDirection => v1::RangeVerdict::WrongDirection,
         Verdict::HardlyObservable => v1::RangeVerdict::HardlyObservable,
+        Verdict::NeutralInDoubt => v1::RangeVerdict::NeutralInDoubt,
     }
 }
 
@@ -141,6 +142,7 @@ mod tests {
             Verdict::TooStrong,
             Verdict::WrongDirection,
             Verdict::HardlyObservable,
+            Verdict::NeutralInDoubt,
         ] {
             let wire = verdict(it);
             let name = format!("RANGE_VERDICT_{}", it.identifier());
