@@ -60,8 +60,17 @@ const FORBIDDEN_BELOW_PURE: &[&str] = &[
 const LAYERS: &[(&str, &[&str])] = &[
     (
         "service",
-        &["wire", "session", "hub", "catalogue", "config", "shutdown"],
+        &[
+            "take",
+            "wire",
+            "session",
+            "hub",
+            "catalogue",
+            "config",
+            "shutdown",
+        ],
     ),
+    ("take", &["wire", "session", "hub", "catalogue"]),
     ("wire", &["session", "hub", "catalogue"]),
     ("session", &["hub"]),
     ("hub", &[]),
@@ -77,7 +86,8 @@ const ROOF: &[&str] = &["config", "lib", "main", "server", "shutdown"];
 /// A library, and the only layers of the server that may name it.
 const LIBRARIES: &[(&str, &[&str])] = &[
     ("frontalis_access::", &["service"]),
-    ("frontalis_proto::", &["service", "wire"]),
+    ("frontalis_proto::", &["service", "take", "wire"]),
+    ("mcap::", &["take"]),
     ("tonic::", &["service"]),
     ("axum::", &["service"]),
     ("rusqlite::", &["catalogue"]),
