@@ -7,6 +7,7 @@ mod channel;
 mod chunk;
 mod events;
 mod figures;
+mod finished;
 mod open_take;
 mod recorder;
 mod rewrite;

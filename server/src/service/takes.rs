@@ -89,7 +89,8 @@ impl Takes {
         match self.recorder.start(row.id.clone(), handle, header).await {
             Ok(ended) => {
                 let this = self.clone();
-                tokio::spawn(async move { this.keep_end(ended).await });
+                let keep = async move { this.keep_end(ended).await };
+                self.recorder.spawn(keep);
                 Ok(row)
             }
             Err(error) => {

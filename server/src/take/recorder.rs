@@ -17,8 +17,10 @@ use tokio_util::{sync::CancellationToken, task::TaskTracker};
 
 use super::{
     figures::TakeFigures,
+    finished::finished,
     open_take::{Condition, OpenTake, file_name},
     rewrite::{RewriteError, Rewritten, rewrite},
+    scan::ScanError,
     scribe::{Progress, Scribe, unix_nanos},
 };
 use crate::{
@@ -277,7 +279,7 @@ impl Recorder {
         }
     }
 
-    /// Brings the file of a take that is not under way into its final form.
+    /// Brings the file of a take that is not under way into its final form, in which a crash may have left it already.
     ///
     /// # Errors
     ///
@@ -285,7 +287,10 @@ impl Recorder {
     pub async fn try_rewrite(&self, id: &TakeId) -> Result<Rewritten, RewriteError> {
         let (fs, dir) = (Arc::clone(&self.inner.fs), self.inner.dir.clone());
         let name = file_name(id);
-        let work = move || rewrite(&*fs, &dir, &name);
+        let work = move || match rewrite(&*fs, &dir, &name) {
+            Err(RewriteError::Scan(ScanError::Head)) => finished(&*fs, &dir.join(&name)),
+            other => other,
+        };
         self.inner.rewrites.run(work).await
     }
 
@@ -313,6 +318,11 @@ impl Recorder {
             figures,
             n_bytes,
         })
+    }
+
+    /// Lets something go on that [`Self::ended`] waits for.
+    pub fn spawn(&self, task: impl Future<Output = ()> + Send + 'static) {
+        self.inner.tasks.spawn(task);
     }
 
     /// Waits until every take that is under way has ended: their sessions are over.
