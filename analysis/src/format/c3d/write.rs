@@ -261,9 +261,10 @@ fn labels(entries: &mut Entries, group: u8, names: &[String]) -> Result<(), C3dW
         return Err(C3dWriteError::NameTooLong { name });
     }
     for (number, names) in (1..).zip(names.chunks(255)) {
-        let name = match number {
-            1 => "LABELS".to_owned(),
-            number => format!("LABELS{number}"),
+        let name = if number == 1 {
+            "LABELS".to_owned()
+        } else {
+            format!("LABELS{number}")
         };
         entries.texts(group, &name, names);
     }
