@@ -109,7 +109,8 @@ impl<W: Write> LiveLinkWriter<W> {
         write!(self.out, ",{N_VALUES}")?;
         let head = head.map_or([0.0; 3], yaw_pitch_roll);
         for value in shapes.iter().chain(&head).chain(&STRAIGHT_AHEAD) {
-            write!(self.out, ",{value:.10}")?;
+            // Adding 0 takes the sign from a zero.
+            write!(self.out, ",{:.10}", value + 0.0)?;
         }
         self.out.write_all(b"\n")
     }

@@ -109,6 +109,9 @@ fn takes_go_beyond_65_535_frames() {
         let take = C3dTake::open(&bytes).unwrap();
         assert_eq!(take.heading(), &heading);
         assert_same(&all(&take), &frames);
+        // Readers that know the header alone read on to the end, which must be that of the last frame.
+        let frames_end = take.layout.start + 70_000 * take.layout.frame_bytes();
+        assert_eq!(bytes.len(), frames_end);
     }
 }
 

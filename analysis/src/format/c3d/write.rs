@@ -14,6 +14,8 @@ const PARAMETER_BLOCK: u8 = 2;
 const SCALE: f32 = -0.1;
 /// Of the word that says residual and cameras, where a point was not seen.
 const NOT_SEEN: f32 = -1.0;
+/// Samples of an analog channel in a frame, though there is no channel: some readers want the ratio of the two rates.
+const ANALOG_SAMPLES: u16 = 1;
 /// What the words of the header can say of a frame's number.
 const MOST_OF_A_WORD: u32 = 0xffff;
 
@@ -79,7 +81,18 @@ pub struct C3dWriter<W> {
     n_points: usize,
     expected: u32,
     written: u32,
+    ending: Ending,
     row: Vec<u8>,
+}
+
+/// What stands behind the frames.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Ending {
+    /// The last block is filled up.
+    WholeBlock,
+    /// Nothing: where the header's words cannot say the last frame, some readers read on to the file's end, and would take
+    /// what fills the block for frames.
+    LastFrame,
 }
 
 impl<W: Write> C3dWriter<W> {
@@ -97,6 +110,11 @@ impl<W: Write> C3dWriter<W> {
             n_points: heading.marker_names.len(),
             expected: heading.n_frames,
             written: 0,
+            ending: if last_frame(heading)? < MOST_OF_A_WORD {
+                Ending::WholeBlock
+            } else {
+                Ending::LastFrame
+            },
             row: Vec::new(),
         })
     }
@@ -127,7 +145,7 @@ impl<W: Write> C3dWriter<W> {
         Ok(())
     }
 
-    /// Fills the last block and hands the sink back.
+    /// Ends the file and hands the sink back, flushed.
     ///
     /// # Errors
     ///
@@ -138,7 +156,7 @@ impl<W: Write> C3dWriter<W> {
         }
         let bytes = u64::from(self.written) * self.n_points as u64 * 16;
         let over = bytes % BLOCK_BYTES as u64;
-        if over > 0 {
+        if over > 0 && self.ending == Ending::WholeBlock {
             let filling = [0; BLOCK_BYTES];
             #[expect(clippy::cast_possible_truncation, reason = "below a block")]
             self.out.write_all(&filling[over as usize..])?;
@@ -184,7 +202,7 @@ fn header(heading: &C3dHeading, parameter_bytes: usize) -> Result<Vec<u8>, C3dWr
     }
     header.extend(SCALE.to_le_bytes());
     header.extend(u16_of(data_block).to_le_bytes());
-    header.extend(0_u16.to_le_bytes());
+    header.extend(ANALOG_SAMPLES.to_le_bytes());
     header.extend(rate(heading).to_le_bytes());
     header.resize(BLOCK_BYTES, 0);
     Ok(header)
@@ -261,9 +279,10 @@ fn labels(entries: &mut Entries, group: u8, names: &[String]) -> Result<(), C3dW
         return Err(C3dWriteError::NameTooLong { name });
     }
     for (number, names) in (1..).zip(names.chunks(255)) {
-        let name = match number {
-            1 => "LABELS".to_owned(),
-            number => format!("LABELS{number}"),
+        let name = if number == 1 {
+            "LABELS".to_owned()
+        } else {
+            format!("LABELS{number}")
         };
         entries.texts(group, &name, names);
     }

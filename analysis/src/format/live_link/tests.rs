@@ -34,7 +34,7 @@ fn turned(yaw: f64, pitch: f64, roll: f64) -> HeadPose {
 #[test]
 fn a_take_is_a_heading_and_rows_of_63_columns() {
     let mut writer = LiveLinkWriter::new(Vec::new()).unwrap();
-    let mut shapes = [0.0; N_SHAPES];
+    let mut shapes = [-0.0; N_SHAPES];
     shapes[17] = 0.25;
     let head = turned(0.1, -0.2, 0.3);
     writer
