@@ -1,14 +1,24 @@
 //! The programs under test, built as a person would build them.
 
 use std::{
+    collections::BTreeMap,
     path::{Path, PathBuf},
     process::Command,
+    sync::Mutex,
 };
 
 /// The path of one of the workspace's programs, `frontalis` or `frontalis-server`.
 ///
 /// A test brings it up to date. A measuring program, which stands beside it, takes the one that was built with it.
 pub fn program(name: &str) -> PathBuf {
+    // Once a process: a test that starts the program again starts the same one.
+    static BUILT: Mutex<BTreeMap<String, PathBuf>> = Mutex::new(BTreeMap::new());
+    let mut built = BUILT.lock().unwrap();
+    let path = built.entry(name.to_owned()).or_insert_with(|| build(name));
+    path.clone()
+}
+
+fn build(name: &str) -> PathBuf {
     let beside = std::env::current_exe().unwrap().with_file_name(name);
     if beside.exists() {
         return beside;

@@ -95,7 +95,8 @@ pub fn announced_bytes(start: &[u8]) -> Option<usize> {
     let is_chunk = fields.u8()? == CHUNK;
     let n_bytes = usize::try_from(fields.u64()?).ok()?;
     let fits = (CHUNK_HEADER_BYTES..=CHUNK_HEADER_BYTES + MAX_CHUNK_BYTES).contains(&n_bytes);
-    (is_chunk && fits).then_some(PREFIX_BYTES + n_bytes)
+    // A length that does not fit may be any number: nothing is added to it.
+    (is_chunk && fits).then(|| PREFIX_BYTES + n_bytes)
 }
 
 /// So many bytes say how long a chunk is.

@@ -40,7 +40,7 @@ const COMMIT_AFTER: Duration = Duration::from_millis(8);
 const FLUSHES_AT_ONCE: usize = 16;
 
 /// Takes that are rewritten at once.
-const REWRITES_AT_ONCE: usize = 1;
+const REWRITES_AT_ONCE: usize = 8;
 
 /// Least room on the disk for a new take, bytes (CONTRACTS U-9).
 const LEAST_FREE_BYTES: u64 = 1 << 30;

@@ -243,9 +243,14 @@ async fn what_later_versions_fill_says_so() {
         (Code::Unimplemented, "NOT_IMPLEMENTED".into())
     );
     let mut takes = v1::take_service_client::TakeServiceClient::new(stage.channel.clone());
-    let list = takes.list_takes(v1::ListTakesRequest::default()).await;
+    let with_images = v1::StartTakeRequest {
+        session: "sessions/any".to_owned(),
+        with_images: true,
+        ..v1::StartTakeRequest::default()
+    };
+    let start = takes.start_take(with_images).await;
     assert_eq!(
-        refusal(list),
+        refusal(start),
         (Code::Unimplemented, "NOT_IMPLEMENTED".into())
     );
 }

@@ -29,7 +29,7 @@ async fn health_says_what_serves() {
     );
     assert_eq!(
         health(&stage, "frontalis.v1.TakeService").await,
-        ServingStatus::NotServing
+        ServingStatus::Serving
     );
     assert_eq!(stage.get("/healthz").await, (200, "ok\n".into()));
     assert_eq!(stage.get("/readyz").await, (200, "ready\n".into()));
