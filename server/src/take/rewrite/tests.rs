@@ -59,7 +59,7 @@ fn the_final_form_holds_the_same_and_is_smaller() {
         (rewritten.figures.first_frame, rewritten.figures.last_frame),
         (1, 200)
     );
-    assert_eq!(rewritten.n_bytes as usize, content(&fs).len());
+    assert_eq!(rewritten.n_bytes, content(&fs).len() as u64);
     assert!(content(&fs).len() < before);
     assert_eq!(
         finished(&fs, &Path::new(DIR).join(NAME)).unwrap(),
