@@ -85,19 +85,21 @@ impl Takes {
             recovered: false,
         };
         let row = self.store.add_take(row).await?;
-        let header = self.header(&row, &handle).await?;
-        match self.recorder.start(row.id.clone(), handle, header).await {
-            Ok(ended) => {
-                let this = self.clone();
-                let keep = async move { this.keep_end(ended).await };
-                self.recorder.spawn(keep);
-                Ok(row)
-            }
-            Err(error) => {
-                self.store.forget_take(&row.id).await?;
-                Err(start_status(&error))
-            }
+        let begun = self.begin(&row, handle).await;
+        if begun.is_err() {
+            self.store.forget_take(&row.id).await?;
         }
+        begun.map(|()| row)
+    }
+
+    async fn begin(&self, row: &TakeRow, handle: SessionHandle) -> Result<(), Status> {
+        let header = self.header(row, &handle).await?;
+        let started = self.recorder.start(row.id.clone(), handle, header).await;
+        let ended = started.map_err(|error| start_status(&error))?;
+        let this = self.clone();
+        self.recorder
+            .spawn(async move { this.keep_end(ended).await });
+        Ok(())
     }
 
     async fn header(

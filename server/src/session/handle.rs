@@ -164,6 +164,11 @@ impl SessionHandle {
         self.shared.intake().stop_recording();
     }
 
+    /// All that was handed on is on stable storage, or never will be: publishers wait for it no longer.
+    pub fn recording_settled(&self) {
+        self.shared.intake().recording_settled();
+    }
+
     /// Whether somebody records it.
     pub fn is_recorded(&self) -> bool {
         self.shared.intake().is_recorded()

@@ -121,6 +121,8 @@ pub(super) struct Intake {
     /// Who publishes, for a recording that begins later.
     source: Option<RecordedSource>,
     recording: Option<RecordingTap>,
+    /// Whether a recording is over of which not all is on stable storage yet.
+    is_settling: bool,
     /// Of whoever published last.
     last_mailbox: Weak<Mailbox>,
     durable_through: u64,
@@ -142,6 +144,7 @@ impl Intake {
             closed: None,
             source: None,
             recording: None,
+            is_settling: false,
             last_mailbox: Weak::new(),
             durable_through: 0,
             publisher_timeout,
@@ -160,14 +163,20 @@ impl Intake {
         Ok(feed)
     }
 
-    /// Hands on nothing more.
+    /// Hands on nothing more. Until [`Self::recording_settled`] the publisher still waits for stable storage.
     pub(super) fn stop_recording(&mut self) {
-        self.recording = None;
+        self.is_settling |= self.recording.take().is_some();
+        self.wake_publisher();
+    }
+
+    /// What was handed on is on stable storage, or never will be.
+    pub(super) fn recording_settled(&mut self) {
+        self.is_settling = false;
         self.wake_publisher();
     }
 
     pub(super) fn is_recorded(&self) -> bool {
-        self.recording.is_some()
+        self.recording.is_some() || self.is_settling
     }
 
     /// Every frame up to this one is on stable storage.
@@ -177,7 +186,7 @@ impl Intake {
     }
 
     pub(super) fn durable_through(&self) -> u64 {
-        if self.recording.is_some() {
+        if self.is_recorded() {
             self.durable_through
         } else {
             0
@@ -525,7 +534,7 @@ impl Intake {
         if let Some(lease) = self.lease.take() {
             lease.mailbox.end(closed.publish_end());
         }
-        self.recording = None;
+        self.stop_recording();
         if closed == Closed::Ended {
             let trailing = self.order.finish();
             self.queue.push_gaps(trailing);

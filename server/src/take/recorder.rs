@@ -163,7 +163,7 @@ impl Recorder {
     }
 
     /// Starts to record `session` as take `id`; `header` says what is not the session's to say. What the session acknowledges
-    /// after this returned is in the take. `on_end` is told when it is over and on stable storage.
+    /// after this returned is in the take. What is returned tells when it is over and on stable storage.
     ///
     /// # Errors
     ///
@@ -202,6 +202,14 @@ impl Recorder {
     ) -> Result<watch::Receiver<Option<EndedTake>>, StartError> {
         let inner = &self.inner;
         let session = &take.session;
+        // Held until the take is listed: of two that start at once, one finds the other.
+        let mut takes = inner.takes();
+        let mut others = takes
+            .values()
+            .filter(|it| it.take.session.id() == session.id());
+        if let Some(other) = others.next() {
+            return Err(StartError::Recorded(other.take.id.clone()));
+        }
         let next_sequence = session.hub().newest_sequence() + 1;
         let samples = session.hub().subscribe(SubscribeSpec {
             name: take.id.resource(),
@@ -222,7 +230,8 @@ impl Recorder {
             take: Arc::clone(take),
             ended: ended.clone(),
         };
-        inner.takes().insert(take.id.clone(), recording);
+        takes.insert(take.id.clone(), recording);
+        drop(takes);
         let mut scribe = Scribe {
             take: Arc::clone(take),
             feed,
@@ -256,6 +265,7 @@ impl Recorder {
         take.add_event(Event::Stop(stop), unix_nanos(&inner.clock, now_nanos));
         take.commit(&inner.flushes).await;
         take.close().await;
+        take.session.recording_settled();
         let (figures, n_bytes, condition) = take.figures();
         let rewritten = self.rewrite(&take.id).await;
         inner.takes().remove(&take.id);
