@@ -1,6 +1,7 @@
 //! A capture stage for tests: one session of the reference face in memory, publishers and renderers without sockets.
 
 use std::{
+    path::PathBuf,
     sync::Arc,
     time::{Duration, SystemTime},
 };
@@ -24,9 +25,9 @@ use crate::{
     catalogue::{Catalogue, Layout, NewRevision, NewSession, Store, StoredSettings},
     clock::ServerClock,
     executor::Workers,
-    fs::MemFs,
+    fs::{Fs, MemFs},
     name::{ActorId, SessionId},
-    service::{access::Caller, audit::Audit, peer::Peer, sessions::Sessions},
+    service::{access::Caller, audit::Audit, peer::Peer, sessions::Sessions, takes::Takes},
     session::{
         RestoredAlignment, SessionEvent, SessionHandle, SessionLimits, SessionRegistry,
         SessionSettings, SessionSpec,
@@ -88,9 +89,19 @@ impl Stage {
                 restored,
             })
             .unwrap();
+        let fs: Arc<dyn Fs> = Arc::new(MemFs::default());
+        let (dir, kept) = (PathBuf::from("/takes"), registry.clone());
+        let takes = Takes::new(store.clone(), kept, clock, fs, dir);
+        let recorder = takes.recorder().clone();
         Self {
-            capture: CaptureGrpc::new(registry.clone(), store.clone(), clock, Audit::none()),
-            curves: CurvesGrpc::new(registry.clone(), store.clone(), clock),
+            capture: CaptureGrpc::new(
+                registry.clone(),
+                store.clone(),
+                clock,
+                Audit::none(),
+                recorder,
+            ),
+            curves: CurvesGrpc::new(registry.clone(), store.clone(), clock, takes.replays()),
             sessions: Sessions::new(store.clone(), registry.clone(), clock, 4),
             store,
             registry,
