@@ -170,6 +170,17 @@ impl Catalogue {
         Self::start(connection, Arc::new(files), Path::new("/"), None)
     }
 
+    /// A catalogue in the memory database of this name, which lives on while any connection to it is open: a process that
+    /// crashes and its successor, in one process. Package bytes go to `files`.
+    ///
+    /// # Errors
+    ///
+    /// That the database failed.
+    pub fn shared_memory(name: &str, files: MemFs) -> Result<Self, CatalogueError> {
+        let connection = Connection::open(format!("file:{name}?mode=memory&cache=shared"))?;
+        Self::start(connection, Arc::new(files), Path::new("/"), None)
+    }
+
     fn start(
         mut connection: Connection,
         fs: Arc<dyn Fs>,

@@ -1,21 +1,24 @@
 //! One server from start to end: everything that runs is started here and joined here.
 
-use std::{io, net::SocketAddr, path::Path, sync::Arc, time::Duration};
+mod ending;
+mod ground;
 
-use tokio::{net::TcpListener, sync::mpsc, time::timeout};
+use std::{io, net::SocketAddr, path::Path, time::Duration};
+
+use tokio::{net::TcpListener, sync::mpsc};
 use tokio_util::{sync::CancellationToken, task::TaskTracker};
-use tonic_health::server::HealthReporter;
+
+use self::ending::Ending;
+pub use self::ground::Ground;
 
 use crate::{
-    catalogue::{Catalogue, CatalogueError, Store},
+    catalogue::CatalogueError,
     clock::ServerClock,
     config::{Config, ConfigError, Limits, worst_case},
-    executor::Workers,
-    fs::{Fs, MemFs, StdFs},
     reload::Reload,
     service::{
         access::{self, Access, TokenSourceError},
-        audit::{Audit, AuditLog},
+        audit::Audit,
         calls::Calls,
         door::{self, ReflectionError, Services},
         grpc::{
@@ -30,7 +33,7 @@ use crate::{
         http::{Doors, LargeBodies},
         keeper::{self, EVENT_CAPACITY, Keeper},
         listener::{
-            Listener,
+            Incoming, Listener,
             tls::{Tls, TlsError},
         },
         sessions::Sessions,
@@ -126,20 +129,41 @@ pub async fn run(
 ) -> Result<Server, RunError> {
     config.validate()?;
     let address = listener.local_addr()?;
+    let ground = Ground::of(&config).await?;
+    run_on(ground, config, Incoming::Port(listener), address, shutdown).await
+}
+
+/// The same on a given ground, with connections from anywhere; `address` is where it says that it listens.
+///
+/// # Errors
+///
+/// [`RunError`]; then nothing runs.
+pub async fn run_on(
+    ground: Ground,
+    config: Config,
+    incoming: Incoming,
+    address: SocketAddr,
+    shutdown: CancellationToken,
+) -> Result<Server, RunError> {
     let tls = load_tls(&config).await?;
     let protection = protection(&config, address);
     let clock = ServerClock::start_now();
     let metrics = first_figures(&config, protection);
 
-    let heavy = Workers::pool(count(config.workers));
-    let store = open_store(&config, heavy.clone()).await?;
-    let audit_log = audit_log(&config)?;
+    let (store, heavy) = (ground.store.clone(), ground.heavy.clone());
     let (audit, audited) = Audit::new();
     let (events, kept) = mpsc::channel(EVENT_CAPACITY);
     let limits = session_limits(&config.limits);
     let registry = SessionRegistry::new(limits.clone(), clock, events);
     let sessions = Sessions::new(store.clone(), registry.clone(), clock, limits.sessions);
-    let takes = takes(&config, &store, &registry, clock)?;
+    let takes = Takes::new(
+        ground.threads,
+        store.clone(),
+        registry.clone(),
+        clock,
+        ground.files,
+        ground.takes,
+    )?;
     let phases = Phases::default();
     let services = Services {
         actors: ActorsGrpc::new(
@@ -177,7 +201,7 @@ pub async fn run(
 
     let drained = CancellationToken::new();
     let upkeep = TaskTracker::new();
-    upkeep.spawn(audit_log.run(audited, drained.clone()));
+    upkeep.spawn(ground.audit_log.run(audited, drained.clone()));
     let keeper = Keeper {
         store,
         registry: registry.clone(),
@@ -199,7 +223,7 @@ pub async fn run(
     upkeep.spawn(access::follow(access, reloads, end));
     let connections = TaskTracker::new();
     let accepting = Listener {
-        listener,
+        incoming,
         router,
         tls: tls.clone(),
         metrics: metrics.clone(),
@@ -233,77 +257,6 @@ pub async fn run(
     })
 }
 
-/// Time for the last events to reach the disk, after everything else has ended.
-const LAST_WRITES: Duration = Duration::from_secs(1);
-
-/// Time for the last takes to be put into their final form; what is not is so at the next start.
-const LAST_TAKES: Duration = Duration::from_secs(3);
-
-/// What has to end, in order.
-struct Ending {
-    grace: Duration,
-    phases: Phases,
-    health: HealthReporter,
-    registry: SessionRegistry,
-    connections: TaskTracker,
-    recorder: Recorder,
-    upkeep: TaskTracker,
-    drained: CancellationToken,
-    metrics: Metrics,
-}
-
-impl Ending {
-    /// Drains within the grace, then cuts what is left. True: nothing had to be cut.
-    async fn run(mut self) -> bool {
-        tracing::info!("draining");
-        self.metrics.set_ready(false);
-        self.phases.draining.cancel();
-        let clean = timeout(self.grace, self.drain()).await.is_ok();
-        if !clean {
-            let n_connections = self.metrics.open_connections();
-            tracing::warn!(
-                n_connections,
-                "the grace is over, what is still open is cut"
-            );
-        }
-        self.phases.closing.cancel();
-        self.phases.cut.cancel();
-        self.connections.close();
-        self.connections.wait().await;
-        // Sessions are over, so their takes end by themselves.
-        let recorded = timeout(LAST_TAKES, self.recorder.ended()).await.is_ok();
-        self.drained.cancel();
-        self.upkeep.close();
-        // Only a session that did not finish within the grace can still hold these up.
-        let written = timeout(LAST_WRITES, self.upkeep.wait()).await.is_ok();
-        tracing::info!("stopped");
-        clean && written && recorded
-    }
-
-    async fn drain(&mut self) {
-        door::report(&self.health, false).await;
-        self.registry.drain().await;
-        door::forget_health(&mut self.health).await;
-        self.phases.closing.cancel();
-        self.connections.close();
-        self.connections.wait().await;
-    }
-}
-
-async fn open_store(config: &Config, heavy: Workers) -> Result<Store, CatalogueError> {
-    // One connection to the database, so one worker: commits come one after the other anyway.
-    let commits = Workers::pool(1);
-    let directory = config.directory();
-    let catalogue = commits
-        .run(move || match directory {
-            Some(directory) => Catalogue::open(&directory),
-            None => Catalogue::in_memory(MemFs::default()),
-        })
-        .await?;
-    let cached = count(config.limits.cached_actors);
-    Ok(Store::new(catalogue, commits, heavy, cached))
-}
-
 async fn restore(sessions: &Sessions) -> Result<(), RunError> {
     let n_restored = sessions.restore().await?;
     if n_restored > 0 {
@@ -325,23 +278,6 @@ async fn start_recorder(
     let recorder = takes.recorder().clone();
     upkeep.spawn(recorder.clone().commit(drained.clone()));
     Ok(recorder)
-}
-
-/// The folder of takes in the data directory.
-const TAKES: &str = "takes";
-
-fn takes(
-    config: &Config,
-    store: &Store,
-    registry: &SessionRegistry,
-    clock: ServerClock,
-) -> Result<Takes, RunError> {
-    let (fs, dir): (Arc<dyn Fs>, _) = match config.directory() {
-        Some(directory) => (Arc::new(StdFs), directory.join(TAKES)),
-        None => (Arc::new(MemFs::default()), Path::new("/").join(TAKES)),
-    };
-    fs.create_dir_all(&dir)?;
-    Ok(Takes::new(store.clone(), registry.clone(), clock, fs, dir))
 }
 
 fn actor_limits(limits: &Limits) -> ActorLimits {
@@ -366,13 +302,6 @@ fn access(config: &Config, audit: Audit, metrics: Metrics) -> Result<Access, Tok
     }
     let path = Path::new(&config.token_file);
     Access::with_tokens(path, &config.limits, audit, metrics)
-}
-
-fn audit_log(config: &Config) -> Result<AuditLog, RunError> {
-    match config.directory() {
-        Some(directory) => AuditLog::open(&directory).map_err(RunError::Audit),
-        None => Ok(AuditLog::in_memory()),
-    }
 }
 
 async fn load_tls(config: &Config) -> Result<Option<Tls>, RunError> {

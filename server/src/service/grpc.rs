@@ -11,6 +11,8 @@ pub(super) mod refusal;
 pub mod server;
 pub mod sessions;
 #[cfg(test)]
+mod recorded_tests;
+#[cfg(test)]
 pub(in crate::service) mod stage;
 pub mod status;
 pub mod takes;

@@ -27,7 +27,7 @@ use super::{
 };
 use crate::{
     clock::ServerClock,
-    executor::Workers,
+    executor::{Threads, Workers},
     fs::Fs,
     hub::{Delivery, StartAt, SubscribeError, SubscribeSpec},
     name::{SessionId, TakeId},
@@ -126,14 +126,14 @@ struct Recording {
 
 impl Recorder {
     /// Records into `dir`, which exists.
-    pub fn new(fs: Arc<dyn Fs>, dir: PathBuf, clock: ServerClock) -> Self {
+    pub fn new(threads: Threads, fs: Arc<dyn Fs>, dir: PathBuf, clock: ServerClock) -> Self {
         let inner = Inner {
             fs,
             dir,
             clock,
-            flushes: Workers::pool(FLUSHES_AT_ONCE),
-            rewrites: Workers::pool(REWRITES_AT_ONCE),
-            reads: Workers::pool(READS_AT_ONCE),
+            flushes: threads.workers(FLUSHES_AT_ONCE),
+            rewrites: threads.workers(REWRITES_AT_ONCE),
+            reads: threads.workers(READS_AT_ONCE),
             dirty: Arc::default(),
             tasks: TaskTracker::new(),
             takes: Mutex::default(),

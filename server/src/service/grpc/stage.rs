@@ -24,7 +24,7 @@ use super::{capture::CaptureGrpc, curves::CurvesGrpc, status::reason_of};
 use crate::{
     catalogue::{Catalogue, Layout, NewRevision, NewSession, Store, StoredSettings},
     clock::ServerClock,
-    executor::Workers,
+    executor::{Threads, Workers},
     fs::{Fs, MemFs},
     name::{ActorId, SessionId},
     service::{access::Caller, audit::Audit, peer::Peer, sessions::Sessions, takes::Takes},
@@ -44,6 +44,7 @@ pub(in crate::service) struct Stage {
     pub(super) capture: CaptureGrpc,
     pub(in crate::service) curves: CurvesGrpc,
     pub(super) sessions: Sessions,
+    pub(super) takes: Takes,
     pub(super) store: Store,
     pub(super) events: mpsc::Receiver<SessionEvent>,
     pub(super) actor: Arc<Actor>,
@@ -91,7 +92,7 @@ impl Stage {
             .unwrap();
         let fs: Arc<dyn Fs> = Arc::new(MemFs::default());
         let (dir, kept) = (PathBuf::from("/takes"), registry.clone());
-        let takes = Takes::new(store.clone(), kept, clock, fs, dir);
+        let takes = Takes::new(Threads::Inline, store.clone(), kept, clock, fs, dir).unwrap();
         let recorder = takes.recorder().clone();
         Self {
             capture: CaptureGrpc::new(
@@ -102,6 +103,7 @@ impl Stage {
                 recorder,
             ),
             curves: CurvesGrpc::new(registry.clone(), store.clone(), clock, takes.replays()),
+            takes,
             sessions: Sessions::new(store.clone(), registry.clone(), clock, 4),
             store,
             registry,
