@@ -157,6 +157,11 @@ impl TestServer {
         }
     }
 
+    /// Its data directory.
+    pub fn folder(&self) -> &std::path::Path {
+        self.folder.path()
+    }
+
     /// What the files with such names take on disk.
     pub fn disk_bytes(&self, has_name: impl Fn(&str) -> bool) -> u64 {
         let mut folders = vec![self.folder.path().to_owned()];

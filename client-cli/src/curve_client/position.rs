@@ -73,7 +73,11 @@ impl Position {
             sequence,
         };
         let next = match refusal.reason.as_deref() {
-            Some("SUBSCRIBER_LAGGED") => number("last_lost").map(|it: u64| in_this_run(it + 1)),
+            // The server may have it by now, or says where there is more.
+            Some("SUBSCRIBER_LAGGED") if self.last_sequence != 0 => {
+                self.elsewhere = None;
+                return;
+            }
             Some("SEQUENCE") => number("first_available").map(in_this_run),
             Some("NEW_RUN") => number("run").map(|run| StartAt::Sequence { run, sequence: 1 }),
             _ => None,
@@ -186,7 +190,7 @@ mod tests {
         position.sample(sample(5));
         let at = |run, sequence| StartAt::Sequence { run, sequence };
         position.lose_place(&refusal("SUBSCRIBER_LAGGED", "last_lost", "8"));
-        assert_eq!(position.resume(StartAt::Now), at(1, 9));
+        assert_eq!(position.resume(StartAt::Now), at(1, 6));
         position.lose_place(&refusal("SEQUENCE", "first_available", "12"));
         assert_eq!(position.resume(StartAt::Now), at(1, 12));
         // It is gone too by now.
@@ -199,7 +203,10 @@ mod tests {
             first_sequence: 1,
             last_sequence: 3,
         };
-        assert_eq!(position.sample(sample(4)), [lost, CurveEvent::Sample(sample(4))]);
+        assert_eq!(
+            position.sample(sample(4)),
+            [lost, CurveEvent::Sample(sample(4))]
+        );
     }
 
     #[test]

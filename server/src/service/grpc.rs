@@ -7,11 +7,11 @@ mod ending;
 pub mod messages;
 mod opening;
 pub mod reasons;
+#[cfg(test)]
+mod recorded_tests;
 pub(super) mod refusal;
 pub mod server;
 pub mod sessions;
-#[cfg(test)]
-mod recorded_tests;
 #[cfg(test)]
 pub(in crate::service) mod stage;
 pub mod status;

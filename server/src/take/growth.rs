@@ -143,7 +143,10 @@ impl Growth {
         let grown = self.grown();
         let after = grown.marks.partition_point(|it| it.frames_through < number);
         let start = grown.marks[after.saturating_sub(1)].offset;
-        (start, grown.marks.get(after).map_or(grown.n_bytes, |it| it.offset))
+        (
+            start,
+            grown.marks.get(after).map_or(grown.n_bytes, |it| it.offset),
+        )
     }
 
     fn grown(&self) -> MutexGuard<'_, Grown> {

@@ -120,10 +120,7 @@ impl SampleReader {
     /// # Errors
     ///
     /// [`TakeFileError`] when the file cannot be read.
-    pub fn next_piece(
-        &mut self,
-        n_bytes: Option<u64>,
-    ) -> Result<Vec<StoredEntry>, TakeFileError> {
+    pub fn next_piece(&mut self, n_bytes: Option<u64>) -> Result<Vec<StoredEntry>, TakeFileError> {
         if let Some(n_bytes) = n_bytes {
             self.places.grow(n_bytes);
         }

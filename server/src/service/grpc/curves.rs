@@ -195,7 +195,11 @@ impl CurveService for CurvesGrpc {
         let page = session.hub().page(asked.run, asked.after, asked.limit);
         let page = match page {
             Ok(page) => page,
-            Err(range) => return Err(replaying::not_kept(&self.replays, &session, range).await?.into()),
+            Err(range) => {
+                return Err(replaying::not_kept(&self.replays, &session, range)
+                    .await?
+                    .into());
+            }
         };
         let response = wire::page_to_wire(&page, header, asked.detail);
         Ok(Response::new(response))

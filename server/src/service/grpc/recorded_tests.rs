@@ -7,9 +7,7 @@ use tokio::time::advance;
 use tokio_util::{sync::CancellationToken, task::AbortOnDropHandle};
 use tonic::{Code, Status};
 
-use super::stage::{
-    Publisher, SESSION, Seen, Stage, asked, assert_refused, every_frame, settings,
-};
+use super::stage::{Publisher, SESSION, Seen, Stage, asked, assert_refused, every_frame, settings};
 use crate::{
     catalogue::{TakeLabels, TakeRow},
     name::{SessionId, TakeId},
@@ -159,9 +157,7 @@ async fn what_the_window_forgot_is_replayed_and_joined_to_what_it_keeps() {
         assert!(samples.iter().take(expected.len()).eq(expected), "{from}");
         let mut renderer = recorded.stage.renderer(recorded.from(from)).await;
         let number_of = |sequence| sequence + if sequence < 100 { 0 } else { 11 };
-        let mut expected: Vec<_> = (from..=409)
-            .map(|it| sample(number_of(it), it))
-            .collect();
+        let mut expected: Vec<_> = (from..=409).map(|it| sample(number_of(it), it)).collect();
         if from <= 100 {
             let gap = Seen::Gap {
                 first: 100,
@@ -224,7 +220,10 @@ async fn a_take_that_is_over_is_replayed_to_its_end_and_then_the_exact_loss_is_t
 
     let refused = recorded.refused_from(150).await;
     assert_refused(&refused, Code::OutOfRange, "SEQUENCE");
-    assert!(refused.message().contains("the first available is 301"), "{refused:?}");
+    assert!(
+        refused.message().contains("the first available is 301"),
+        "{refused:?}"
+    );
     // The oldest is that from which on nothing is missing.
     let mut oldest = recorded.stage.renderer(every_frame()).await;
     assert_eq!(oldest.samples_through(420).await[0].sequence, 301);

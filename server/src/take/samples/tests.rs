@@ -165,10 +165,7 @@ fn samples_are_read_from_any_of_them_on_while_a_file_grows_and_afterwards() {
     for sequence in wanted {
         assert_eq!(read(&fs, None, sequence), from(&entries, sequence));
         // The file took its final form, and nobody said so yet.
-        assert_eq!(
-            read(&fs, Some(&growth), sequence),
-            from(&entries, sequence)
-        );
+        assert_eq!(read(&fs, Some(&growth), sequence), from(&entries, sequence));
     }
 }
 

@@ -244,7 +244,12 @@ impl Replaying {
                         return Ok(None);
                     }
                     if let Some(gap) = self.go_on(unsolved, subscription).await? {
-                        return Ok(Some(self.respond(Vec::new(), vec![gap], subscription, detail)));
+                        return Ok(Some(self.respond(
+                            Vec::new(),
+                            vec![gap],
+                            subscription,
+                            detail,
+                        )));
                     }
                 }
             }
