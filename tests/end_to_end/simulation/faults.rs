@@ -6,11 +6,13 @@ use rand::{RngExt as _, SeedableRng as _};
 use rand_pcg::Pcg64Mcg;
 
 /// Nothing goes wrong after this.
-pub const LAST_FAULT: Duration = Duration::from_secs(8);
+const LAST_FAULT: Duration = Duration::from_secs(8);
 
-/// After the last fault, time for everyone to notice: a half-open connection is found within 15 s, and the longest wait
-/// before another attempt is 5 s.
-pub const NOTICED: Duration = Duration::from_secs(30);
+/// Time for everyone to notice that a connection is gone and to come back: the longest wait before an attempt is 5 s.
+const BACK: Duration = Duration::from_secs(8);
+
+/// Time to find out that a connection leads nowhere (D-25).
+const HALF_OPEN: Duration = Duration::from_secs(17);
 
 /// Between two faults, milliseconds.
 const PAUSE_MILLIS: std::ops::Range<u64> = 150..1_800;
@@ -66,4 +68,16 @@ pub fn schedule(seed: u64) -> Vec<(Duration, Fault)> {
         }
     }
     faults
+}
+
+/// From when on all is well again.
+pub fn healed(faults: &[(Duration, Fault)]) -> Duration {
+    let is_half_open = faults.iter().any(|it| matches!(it.1, Fault::Partition(_)));
+    LAST_FAULT
+        + BACK
+        + if is_half_open {
+            HALF_OPEN
+        } else {
+            Duration::ZERO
+        }
 }

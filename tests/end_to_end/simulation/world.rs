@@ -6,7 +6,7 @@ use std::{
     io,
     net::{Ipv4Addr, SocketAddr},
     path::Path,
-    sync::{Arc, Mutex, MutexGuard},
+    sync::{Arc, LazyLock, Mutex, MutexGuard},
     time::Duration,
 };
 
@@ -55,6 +55,9 @@ const RATE_HZ: f64 = 40.0;
 /// The one port of the simulated network.
 const PORT: u16 = 7_400;
 
+/// Where its server keeps takes.
+const TAKES: &str = "/takes";
+
 const SESSION: &str = "sessions/stage";
 
 /// How long a call may take before its caller tries again.
@@ -88,7 +91,7 @@ impl World {
         let database = format!("simulation-{seed}");
         let files = MemFs::default();
         let catalogue = Catalogue::shared_memory(&database, files.clone()).unwrap();
-        catalogue.add_revision(&reference(), 0).unwrap();
+        catalogue.add_revision(reference(), 0).unwrap();
         Arc::new(Self {
             _catalogue: catalogue,
             database,
@@ -105,6 +108,21 @@ impl World {
 
     fn history(&self) -> MutexGuard<'_, History> {
         self.history.lock().unwrap()
+    }
+
+    /// The power of the server goes, and with it half of what its storage had said was flushed of takes under way.
+    pub fn cut_power_and_lose(&self) {
+        self.cut_power();
+        let files = self.files.lock().unwrap();
+        for name in files.list(Path::new(TAKES)).unwrap() {
+            let file = Path::new(TAKES).join(name);
+            let content = files.read(&file).unwrap();
+            let is_under_way = !content.ends_with(mcap::MAGIC);
+            if is_under_way {
+                let left = &content[..content.len() / 2];
+                files.write_and_sync(&file, left).unwrap();
+            }
+        }
     }
 
     /// The power of the server goes: what was not flushed is there in part, or torn, or not at all.
@@ -284,7 +302,7 @@ impl World {
     pub fn to_history(&self) -> History {
         let mut history = self.history().clone();
         let files = self.files.lock().unwrap();
-        let folder = Path::new("/takes");
+        let folder = Path::new(TAKES);
         for name in files.list(folder).unwrap() {
             let file = files.read(&folder.join(name)).unwrap();
             history.takes.push(take_seen(&RecordedTake::read(&file)));
@@ -293,17 +311,21 @@ impl World {
     }
 }
 
-fn reference() -> NewRevision {
-    let start = ImportActorStart {
-        actor_id: "reference".to_owned(),
-        ..ImportActorStart::default()
-    };
-    let start = ImportStart::try_from(start).unwrap();
-    NewRevision {
-        layout: layout(&reference_face::actor(), &start),
-        actor: start.actor,
-        package: reference_package(),
-    }
+/// The reference face, read once.
+fn reference() -> &'static NewRevision {
+    static REFERENCE: LazyLock<NewRevision> = LazyLock::new(|| {
+        let start = ImportActorStart {
+            actor_id: "reference".to_owned(),
+            ..ImportActorStart::default()
+        };
+        let start = ImportStart::try_from(start).unwrap();
+        NewRevision {
+            layout: layout(&reference_face::actor(), &start),
+            actor: start.actor,
+            package: reference_package(),
+        }
+    });
+    &REFERENCE
 }
 
 fn heard(event: &CurveEvent) -> Option<Heard> {
