@@ -110,7 +110,7 @@ impl World {
         self.history.lock().unwrap()
     }
 
-    /// The power of the server goes, and with it half of what its storage had said was flushed of takes under way.
+    /// The power of the server goes, and with it a quarter of what its storage had said was flushed of takes under way.
     pub fn cut_power_and_lose(&self) {
         self.cut_power();
         let files = self.files.lock().unwrap();
@@ -119,7 +119,7 @@ impl World {
             let content = files.read(&file).unwrap();
             let is_under_way = !content.ends_with(mcap::MAGIC);
             if is_under_way {
-                let left = &content[..content.len() / 2];
+                let left = &content[..content.len() / 4 * 3];
                 files.write_and_sync(&file, left).unwrap();
             }
         }
