@@ -223,7 +223,8 @@ async fn a20_a_whole_take_sent_again_has_no_second_effect() {
         };
         let mut frames = stage.performance.frames(1..=GOOD_FRAMES);
         frames.extend((NEXT..=MANY_FRAMES).map(empty));
-        send_all(&mut publisher, &frames[GOOD_FRAMES as usize..]).await;
+        let n_good = usize::try_from(GOOD_FRAMES).unwrap();
+        send_all(&mut publisher, &frames[n_good..]).await;
         publisher.durable(MANY_FRAMES).await.unwrap();
 
         // The first of them are long forgotten, and then the last are not.

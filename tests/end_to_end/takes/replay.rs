@@ -72,7 +72,10 @@ async fn a_sample_from_long_ago_comes_as_it_went_and_the_live_ones_follow() {
     samples.extend(replayed.samples_through(N_FRAMES + N_MORE).await.unwrap());
     assert_same(&samples, &went);
     let samples = late.samples_through(N_FRAMES + N_MORE).await.unwrap();
-    assert_same(&samples, &went[(N_FRAMES / 3 - 1) as usize..]);
+    assert_same(
+        &samples,
+        &went[usize::try_from(N_FRAMES / 3 - 1).unwrap()..],
+    );
 
     let stopped = stop(&server, &take.name).await.unwrap();
     assert_eq!(stopped.n_frames, N_FRAMES + N_MORE);

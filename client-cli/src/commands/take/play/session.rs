@@ -4,7 +4,10 @@ use anyhow::{Context as _, bail};
 use frontalis_client::{
     connection::Channel,
     error::ClientError,
-    proto::{self, SessionState, TakeHeader, session_service_client::SessionServiceClient},
+    proto::{
+        self, SessionSettings, SessionState, TakeHeader,
+        session_service_client::SessionServiceClient,
+    },
 };
 use tonic::Code;
 
@@ -96,7 +99,7 @@ async fn make(
         session_id: id.to_owned(),
         actor: actor.clone(),
         kind: proto::CaptureKind::Markers.into(),
-        settings: header.settings.clone(),
+        settings: header.settings.clone().map(for_playing),
         display_name: String::new(),
     };
     let made = client.create_session(request).await;
@@ -120,6 +123,16 @@ async fn make(
     }
     eprintln!("session {id} is made of {actor}, revision {actor_revision}");
     Ok(())
+}
+
+/// The take's settings, without what only its capture needed: nobody asks to align, and what is recorded already is not again.
+fn for_playing(settings: SessionSettings) -> SessionSettings {
+    SessionSettings {
+        align_on_request: None,
+        record: None,
+        record_images: None,
+        ..settings
+    }
 }
 
 #[cfg(test)]

@@ -225,6 +225,9 @@ impl Replaying {
                     return Ok(Some(self.respond(samples, gaps, subscription, detail)));
                 }
                 Step::Hole { sequence, frame } => {
+                    if self.is_of_present_run() && subscription.rejoin().is_ok() {
+                        return Ok(None);
+                    }
                     return Err(ending::lagged(&self.lost_before(sequence, frame)));
                 }
                 Step::Caught => {
