@@ -12,5 +12,6 @@ pub mod keeper;
 pub mod listener;
 pub mod panics;
 pub mod peer;
+pub mod replay;
 pub mod sessions;
 pub mod takes;

@@ -25,4 +25,5 @@ mod person;
 mod real_takes;
 mod recentering;
 mod restart;
+mod simulation;
 mod takes;

@@ -8,7 +8,7 @@ use sha2::{Digest as _, Sha256};
 use tokio::sync::watch;
 use tonic::Status;
 
-use super::grpc::status::refuse;
+use super::{grpc::status::refuse, replay::Replays};
 use crate::{
     catalogue::{CatalogueError, Store, TakeContent, TakeFilter, TakeLabels, TakeRow, TakeState},
     clock::ServerClock,
@@ -63,6 +63,16 @@ impl Takes {
             fs,
             dir,
         })
+    }
+
+    /// What replays them to subscribers.
+    pub fn replays(&self) -> Replays {
+        Replays::new(
+            self.store.clone(),
+            self.recorder.clone(),
+            Arc::clone(&self.fs),
+            self.dir.clone(),
+        )
     }
 
     /// What records.

@@ -13,6 +13,7 @@ use super::{
     channel::{self, Channel},
     chunk::{ChunkBuffer, Message},
     figures::TakeFigures,
+    growth::{Growth, Written},
 };
 use crate::{
     executor::Workers,
@@ -42,6 +43,8 @@ pub fn file_name(id: &TakeId) -> String {
 pub(super) struct OpenTake {
     pub(super) id: TakeId,
     pub(super) session: SessionHandle,
+    /// What of it can be read.
+    pub(super) growth: Arc<Growth>,
     pending: Mutex<Pending>,
     /// `None` once nothing is written any more.
     file: tokio::sync::Mutex<Option<Box<dyn AppendFile>>>,
@@ -51,8 +54,10 @@ pub(super) struct OpenTake {
 struct Pending {
     chunk: ChunkBuffer,
     next_sequences: [u32; 3],
-    /// Last frame of the chunk.
-    through: u64,
+    /// With the chunk.
+    written: Written,
+    /// Before the chunk.
+    written_before: Written,
     /// Of all that was added.
     figures: TakeFigures,
     n_bytes: u64,
@@ -64,11 +69,13 @@ impl OpenTake {
     fn new(id: TakeId, session: SessionHandle, file: Box<dyn AppendFile>, n_bytes: u64) -> Self {
         Self {
             id,
+            growth: Arc::new(Growth::new(session.run(), n_bytes)),
             session,
             pending: Mutex::new(Pending {
                 chunk: ChunkBuffer::default(),
                 next_sequences: [0; 3],
-                through: 0,
+                written: Written::default(),
+                written_before: Written::default(),
                 figures: TakeFigures::default(),
                 n_bytes,
                 condition: Condition::Sound,
@@ -100,7 +107,7 @@ impl OpenTake {
 
     pub(super) fn add_frame(&self, number: u64, sent: &[u8], time_nanos: u64) {
         let mut pending = self.pending();
-        pending.through = pending.through.max(number);
+        pending.written.add_frame(number);
         pending.figures.count_frame(number);
         pending.add(Channel::Markers, sent, time_nanos);
     }
@@ -108,6 +115,7 @@ impl OpenTake {
     pub(super) fn add_sample(&self, sample: &v1::CurveSample, time_nanos: u64) {
         let mut pending = self.pending();
         pending.figures.n_samples += 1;
+        pending.written.add_sample(sample.sequence, sample.frame);
         pending.add(Channel::Curves, &sample.encode_to_vec(), time_nanos);
     }
 
@@ -132,14 +140,16 @@ impl OpenTake {
         let Some(mut file) = writing.take() else {
             return;
         };
-        let (chunk, through) = {
+        let (chunk, before, through) = {
             let mut pending = self.pending();
             if pending.chunk.is_empty() {
                 drop(pending);
                 *writing = Some(file);
                 return;
             }
-            (pending.chunk.take(), pending.through)
+            let before = pending.written_before;
+            pending.written_before = pending.written;
+            (pending.chunk.take(), before, pending.written)
         };
         let n_bytes = chunk.len() as u64;
         let written = workers.run(move || {
@@ -151,7 +161,8 @@ impl OpenTake {
             Ok(file) => {
                 *writing = Some(file);
                 self.pending().n_bytes += n_bytes;
-                self.session.set_durable_through(through);
+                self.growth.commit(n_bytes, before, through);
+                self.session.set_durable_through(through.frames_through);
             }
             Err(error) => self.fail(&error),
         }
@@ -171,6 +182,7 @@ impl OpenTake {
     /// Nothing is written any more.
     pub(super) async fn close(&self) {
         self.file.lock().await.take();
+        self.growth.end();
     }
 
     fn pending(&self) -> MutexGuard<'_, Pending> {
