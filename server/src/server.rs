@@ -138,6 +138,10 @@ pub async fn run(
 /// # Errors
 ///
 /// [`RunError`]; then nothing runs.
+#[expect(
+    clippy::too_many_lines,
+    reason = "everything that runs is started here, once and in order"
+)]
 pub async fn run_on(
     ground: Ground,
     config: Config,

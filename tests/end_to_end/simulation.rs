@@ -46,7 +46,8 @@ fn every_simulated_stage_keeps_the_contract() {
 
 #[test]
 fn a_storage_that_forgets_what_it_flushed_is_found_out() {
-    let with_a_crash = (0..).find(|seed| schedule(*seed).iter().any(|it| it.1 == Fault::Crash));
+    let with_a_crash =
+        (0..N_SEEDS).find(|seed| schedule(*seed).iter().any(|it| it.1 == Fault::Crash));
     let violations = simulate(with_a_crash.unwrap(), World::cut_power_and_lose).violations();
     let is_lost = |it: &Violation| matches!(it, Violation::DurableFrameLost { .. });
     assert!(violations.iter().any(is_lost), "{violations:?}");
@@ -55,27 +56,27 @@ fn a_storage_that_forgets_what_it_flushed_is_found_out() {
 /// What the simulations came to, so that one that did nothing is noticed.
 #[derive(Debug, Default)]
 struct Figures {
-    n_crashes: usize,
-    n_other_faults: usize,
-    n_takes: usize,
-    n_recorded_frames: usize,
-    n_samples_heard: usize,
-    n_samples_lost_and_said: u64,
+    crashes: usize,
+    other_faults: usize,
+    takes: usize,
+    recorded_frames: usize,
+    samples_heard: usize,
+    samples_lost_and_said: u64,
 }
 
 impl Figures {
     fn count(&mut self, seed: u64, history: &History) {
         let faults = schedule(seed);
-        let n_crashes = faults.iter().filter(|it| it.1 == Fault::Crash).count();
-        self.n_crashes += n_crashes;
-        self.n_other_faults += faults.len() - n_crashes;
-        self.n_takes += history.takes.len();
+        let crashes = faults.iter().filter(|it| it.1 == Fault::Crash).count();
+        self.crashes += crashes;
+        self.other_faults += faults.len() - crashes;
+        self.takes += history.takes.len();
         let recorded = history.takes.iter().map(|it| it.frames.len());
-        self.n_recorded_frames += recorded.sum::<usize>();
+        self.recorded_frames += recorded.sum::<usize>();
         for heard in &history.heard {
             match heard {
-                Heard::Sample(_) => self.n_samples_heard += 1,
-                Heard::Lost { first, last } => self.n_samples_lost_and_said += last - first + 1,
+                Heard::Sample(_) => self.samples_heard += 1,
+                Heard::Lost { first, last } => self.samples_lost_and_said += last - first + 1,
                 _ => {}
             }
         }

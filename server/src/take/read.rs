@@ -99,8 +99,8 @@ fn next_of_growing(scan: &mut Scan, next_event: &mut u32) -> io::Result<Option<V
         Some(Piece::Chunk(chunk)) => {
             let messages = scan::messages(&chunk);
             let records: Vec<_> = messages.iter().map(TakeRecord::from).collect();
-            let events = records.iter().filter(|it| it.channel == Channel::Events);
-            if let Some(last) = events.last() {
+            let last = records.iter().rfind(|it| it.channel == Channel::Events);
+            if let Some(last) = last {
                 *next_event = last.sequence.saturating_add(1);
             }
             Ok(Some(records))

@@ -121,7 +121,9 @@ impl World {
 
     fn after(path: &[Step], forgets_epochs: bool) -> Self {
         let mut world = Self::new(forgets_epochs);
-        path.iter().for_each(|it| world.step(*it));
+        for step in path {
+            world.step(*step);
+        }
         world
     }
 
