@@ -165,6 +165,15 @@ bench-abuse: ## What abuse of HTTP/2 and of connections costs the server: the fi
 	@cargo test --package frontalis-tests --test end_to_end -- --nocapture --test-threads 1 \
 	  bad_input::http2 bad_input::connections bad_input::tls | grep --extended-regexp 'G12|F[0-9]+|test result'
 
+# Simulations of make simulations.
+SEEDS ?= 200
+.PHONY: simulations
+simulations: ## Publisher, server and subscriber under SEEDS (200) schedules of faults in simulated time, and every state of two publishers (G6, G7)
+	@FRONTALIS_SIMULATIONS=$(SEEDS) cargo test --package frontalis-tests --test end_to_end -- --nocapture simulation::every \
+	  | grep --extended-regexp 'simulations,|test result|seed'
+	@cargo test --package frontalis-server --lib -- --nocapture --test-threads 1 intake::model \
+	  | grep --extended-regexp 'states|after|test result'
+
 .PHONY: bench-doors
 bench-doors: ## Processor time of a delivered sample at each door beside plain TCP, and what clients that do not read cost
 	cargo build --release --bin frontalis-server

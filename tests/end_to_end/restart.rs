@@ -1,13 +1,13 @@
 //! Actors, sessions and alignments survive a restart, and a publisher that comes back goes on.
 
 use frontalis_client::{
-    capture_client::{CaptureClient, CaptureSettings},
+    capture_client::CaptureClient,
     connection::lazy_channel,
     curve_client::{CurveClient, CurveEvent, CurveSettings, StartAt, Wanted},
 };
 use frontalis_proto::v1::{
-    CurveSample, GetActorRequest, Ingest, LengthUnit, ListActorsRequest, ListSessionsRequest,
-    SessionSettings, SessionState, SubscribeStart,
+    CurveSample, GetActorRequest, ListActorsRequest, ListSessionsRequest, SessionSettings,
+    SessionState, SubscribeStart,
 };
 use harness::{
     Problem, Publisher, Subscriber, TestPerformance, TestServer, assert_eventually, every_frame,
@@ -141,9 +141,12 @@ async fn the_client_library_goes_on_over_a_restart_by_itself() {
     let server = staged().await;
     let performance = TestPerformance::reference();
     let channel = lazy_channel(&server.url()).unwrap();
-    let publisher = CaptureClient::start(channel.clone(), settings(&performance))
-        .await
-        .unwrap();
+    let publisher = CaptureClient::start(
+        channel.clone(),
+        performance.capture_settings(SESSION, "camera-1"),
+    )
+    .await
+    .unwrap();
     let from = StartAt::Oldest;
     let wanted = CurveSettings::new(SESSION, Wanted::EveryFrame { from });
     let mut curves = CurveClient::subscribe(channel, wanted).await.unwrap();
@@ -176,18 +179,6 @@ async fn the_client_library_goes_on_over_a_restart_by_itself() {
     );
     drop(curves);
     server.stop().await;
-}
-
-fn settings(performance: &TestPerformance) -> CaptureSettings {
-    CaptureSettings {
-        session: SESSION.to_owned(),
-        publisher: "camera-1".to_owned(),
-        marker_names: performance.marker_names().to_vec(),
-        unit: LengthUnit::Millimeter,
-        rate_hz: performance.rate_hz,
-        ingest: Ingest::Lossless,
-        takeover: false,
-    }
 }
 
 /// Frames of the samples up to that of `frame`, and how many new runs were told of.

@@ -11,7 +11,7 @@ mod resumed;
 use frontalis_proto::v1::{
     ExportTakeRequest, GetTakeRequest, StartTakeRequest, StopTakeRequest, Take,
 };
-use harness::TestServer;
+use harness::{Publisher, TestPerformance, TestServer};
 use tonic::Status;
 
 const SESSION: &str = "sessions/stage";
@@ -24,6 +24,13 @@ async fn start(server: &TestServer, session: &str, slate: &str) -> Result<Take, 
     };
     let answer = server.takes().await.start_take(request).await?;
     Ok(answer.into_inner().take.unwrap())
+}
+
+/// A recording of the session that has begun, and who publishes into it.
+async fn record(server: &TestServer, performance: &TestPerformance) -> (Take, Publisher) {
+    let take = start(server, SESSION, "").await.unwrap();
+    let publisher = Publisher::open(server, performance.start(SESSION, "stage"));
+    (take, publisher.await.unwrap())
 }
 
 async fn stop(server: &TestServer, name: &str) -> Result<Take, Status> {

@@ -1,6 +1,7 @@
 //! A performance of the reference face with known curves, as a capture system would stream it.
 
 use frontalis_analysis::face::{actor::Actor, basis::MarkerBasis};
+use frontalis_client::capture_client::CaptureSettings;
 use frontalis_proto::v1::{Ingest, LengthUnit, MarkerFrame, PublishStart};
 
 /// Neutral frames at the start: more than a session collects by default.
@@ -87,6 +88,19 @@ impl TestPerformance {
             ingest: Ingest::Lossless.into(),
             rate_hz: self.rate_hz,
             ..PublishStart::default()
+        }
+    }
+
+    /// The same for a publisher of the client library, which sends every frame.
+    pub fn capture_settings(&self, session: &str, publisher: &str) -> CaptureSettings {
+        CaptureSettings {
+            session: session.to_owned(),
+            publisher: publisher.to_owned(),
+            marker_names: self.marker_names.clone(),
+            unit: LengthUnit::Millimeter,
+            rate_hz: self.rate_hz,
+            ingest: Ingest::Lossless,
+            takeover: false,
         }
     }
 

@@ -108,13 +108,15 @@ impl Position {
         events
     }
 
-    /// A gap, unless it was told before: gaps just before a sample are repeated on resumption.
+    /// What of a gap was not told before: gaps just before a sample are repeated on resumption, and of the end of a run that
+    /// crashed some samples may have been heard that its take lacks.
     pub fn gap(&mut self, gap: Gap) -> Option<CurveEvent> {
         if gap.last <= self.last_frame {
             return None;
         }
+        let first = gap.first.max(self.last_frame + 1);
         self.last_frame = gap.last;
-        Some(CurveEvent::Gap(gap))
+        Some(CurveEvent::Gap(Gap { first, ..gap }))
     }
 }
 
@@ -156,6 +158,24 @@ mod tests {
             last_sequence: 8,
         };
         assert_eq!(events, [lost, CurveEvent::Sample(sample(9))]);
+    }
+
+    #[test]
+    fn of_a_gap_only_what_lies_behind_the_last_frame_is_told() {
+        let mut position = Position::default();
+        position.enter_run(1);
+        position.sample(sample(5));
+        let gap = |first, last| Gap {
+            first,
+            last,
+            ..Gap::default()
+        };
+        assert_eq!(position.gap(gap(90, 105)), None);
+        assert_eq!(
+            position.gap(gap(103, 110)),
+            Some(CurveEvent::Gap(gap(106, 110)))
+        );
+        assert_eq!(position.gap(gap(103, 110)), None);
     }
 
     #[test]

@@ -1,8 +1,9 @@
 //! One subscriber's way through a session's samples.
 //!
 //! `LATEST`: the newest unsent sample, against credits or at a pace; what is passed over is counted (CONTRACTS D-14 to
-//! D-16), as soon as it can no longer be sent. `EVERY_FRAME`: everything from a position on, in bounded batches; falling out of the window ends it with the
-//! exact lost range (D-17, D-18), unless whoever holds it has that range from elsewhere. Both hear every state, and a heartbeat when nothing else comes (D-22, D-23).
+//! D-16), as soon as it can no longer be sent. `EVERY_FRAME`: everything from a position on, in bounded batches; falling out
+//! of the window ends it with the exact lost range (D-17, D-18), unless whoever holds it has that range from elsewhere. Both
+//! hear every state, and a heartbeat when nothing else comes (D-22, D-23).
 
 mod elsewhere;
 

@@ -172,7 +172,8 @@ impl Replays {
         Ok(take.map(|it| self.replay(it, sequence, last_frame)))
     }
 
-    /// The end of a run that is over: a replay from sample `sequence` on, which may be the one after the last.
+    /// The end of a run that is over: a replay from sample `sequence` on, which may come after the last. Whoever was served
+    /// live may have had samples that a crash kept from the take; what the take says of the frames behind them is still news.
     ///
     /// # Errors
     ///
@@ -184,9 +185,9 @@ impl Replays {
         sequence: u64,
     ) -> Result<Option<Replay>, Status> {
         let mut held = self.held(session, run).await?;
-        let is_last = |it: &Held| it.last.and_then(|last| last.checked_add(1)) == Some(sequence);
+        let is_before = |it: &Held| it.last.is_some_and(|last| last < sequence);
         let idx = held.iter().position(|it| it.has(sequence));
-        let idx = idx.or_else(|| held.iter().rposition(is_last));
+        let idx = idx.or_else(|| held.iter().rposition(is_before));
         Ok(idx.map(|idx| self.replay(held.swap_remove(idx), sequence, 0)))
     }
 

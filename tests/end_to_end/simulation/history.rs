@@ -141,6 +141,13 @@ pub enum Violation {
         /// The sample.
         sequence: u64,
     },
+    /// A recorded frame became no sample, and a subscriber to every frame did not hear of it (D-4).
+    RecordedFrameUntold {
+        /// The session's run.
+        run: u64,
+        /// The frame.
+        frame: u64,
+    },
     /// Frames were never answered (D-8).
     Unanswered {
         /// How many.
@@ -244,8 +251,10 @@ impl History {
         let mut listener = Listener::default();
         let mut through = 0;
         let mut samples = BTreeSet::new();
+        let mut told = BTreeMap::new();
         for heard in &self.heard {
             listener.hear(*heard, found);
+            told.insert(listener.run, listener.frame);
             // The last frame may belong to a run before the last.
             through = listener.frame.max(through);
             if let Heard::Sample(sample) = heard {
@@ -254,6 +263,7 @@ impl History {
             }
         }
         self.check_recorded(&samples, found);
+        self.check_told(&told, found);
         let last = self.sent.keys().next_back().copied().unwrap_or_default();
         if !listener.has_ended || through < last {
             found.push(Violation::EndMissing { frame: last });
@@ -271,6 +281,18 @@ impl History {
         found.extend(
             missed.map(|(run, sequence)| Violation::RecordedSampleMissed { run, sequence }),
         );
+    }
+
+    /// Of every run up to the last, each recorded frame is answered for by a sample or a gap.
+    fn check_told(&self, told: &BTreeMap<u64, u64>, found: &mut Vec<Violation>) {
+        let first_run = told.keys().next().copied().unwrap_or(u64::MAX);
+        for take in self.takes.iter().filter(|it| it.run >= first_run) {
+            let run = take.run;
+            let through = told.get(&run).copied().unwrap_or_default();
+            let recorded = take.frames.iter().map(|it| it.0);
+            let untold = recorded.filter(|it| *it > through);
+            found.extend(untold.map(|frame| Violation::RecordedFrameUntold { run, frame }));
+        }
     }
 
     fn compare(&self, run: u64, heard: &SampleSeen, found: &mut Vec<Violation>) {

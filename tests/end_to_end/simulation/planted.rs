@@ -209,5 +209,9 @@ fn what_never_comes_is_found() {
         run: 4,
         sequence: 9,
     };
-    assert_eq!(found, [missed, end]);
+    let untold = Violation::RecordedFrameUntold {
+        run: 4,
+        frame: N_FRAMES,
+    };
+    assert_eq!(found, [missed, untold, end]);
 }

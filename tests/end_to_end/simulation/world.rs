@@ -17,9 +17,9 @@ use frontalis_client::{
     curve_client::{CurveClient, CurveEvent, CurveSettings, StartAt, Wanted},
 };
 use frontalis_proto::v1::{
-    CaptureKind, CreateSessionRequest, CurveSample, EndSessionRequest, ImportActorStart, Ingest,
-    LengthUnit, MarkerFrame, StartTakeRequest, session_service_client::SessionServiceClient,
-    take_event::Event, take_service_client::TakeServiceClient,
+    CaptureKind, CreateSessionRequest, CurveSample, EndSessionRequest, ImportActorStart,
+    MarkerFrame, StartTakeRequest, session_service_client::SessionServiceClient, take_event::Event,
+    take_service_client::TakeServiceClient,
 };
 use frontalis_server::{
     Ground,
@@ -188,13 +188,8 @@ impl World {
     /// Publishes a performance, frame by frame in time.
     pub async fn publish(self: Arc<Self>) -> turmoil::Result {
         let settings = CaptureSettings {
-            session: SESSION.to_owned(),
-            publisher: "stage".to_owned(),
-            marker_names: self.performance.marker_names().to_vec(),
-            unit: LengthUnit::Millimeter,
             rate_hz: RATE_HZ,
-            ingest: Ingest::Lossless,
-            takeover: false,
+            ..self.performance.capture_settings(SESSION, "stage")
         };
         self.made.cancelled().await;
         let client = loop {

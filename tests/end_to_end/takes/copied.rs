@@ -1,8 +1,8 @@
 //! A copy of a directory of takes, made at any moment, opens, and holds a beginning of what was recorded (CONTRACTS U-10).
 
-use harness::{Publisher, RecordedTake, TestPerformance, TestServer};
+use harness::{RecordedTake, TestPerformance, TestServer};
 
-use super::{SESSION, start, stop};
+use super::{SESSION, record, stop};
 
 /// Copies that are made while frames come in.
 const N_COPIES: u64 = 12;
@@ -23,10 +23,7 @@ fn copy(server: &TestServer) -> Vec<Vec<u8>> {
 async fn a_copy_made_at_any_moment_is_a_beginning_of_the_take() {
     let server = TestServer::with_session("stage").await;
     let performance = TestPerformance::reference();
-    let take = start(&server, SESSION, "").await.unwrap();
-    let mut publisher = Publisher::open(&server, performance.start(SESSION, "stage"))
-        .await
-        .unwrap();
+    let (take, mut publisher) = record(&server, &performance).await;
     let mut copies = Vec::new();
     for idx in 0..N_COPIES {
         let first = idx * STEP + 1;

@@ -1,9 +1,9 @@
 //! A server that is killed loses nothing that it acknowledged as durable (CONTRACTS G1, the short form).
 
 use frontalis_proto::v1::TakeState;
-use harness::{Publisher, RecordedTake, TestPerformance, TestServer};
+use harness::{RecordedTake, TestPerformance, TestServer};
 
-use super::{SESSION, export, get, start};
+use super::{SESSION, export, get, record};
 
 /// Kills of one run of the test; `make kill-test` does more.
 const N_KILLS: u64 = 5;
@@ -21,10 +21,7 @@ async fn a_killed_server_gives_back_every_durable_frame() {
         .unwrap();
     let performance = TestPerformance::reference();
     for kill in 0..N_KILLS {
-        let take = start(&server, SESSION, "").await.unwrap();
-        let mut publisher = Publisher::open(&server, performance.start(SESSION, "stage"))
-            .await
-            .unwrap();
+        let (take, mut publisher) = record(&server, &performance).await;
         let n_durable = 40 + kill * STEP;
         for number in 1..=n_durable + 20 {
             publisher.send(vec![performance.frame(number)]).await;
@@ -53,10 +50,7 @@ async fn a_killed_server_gives_back_every_durable_frame() {
 async fn a_take_that_a_crash_left_in_its_final_form_is_whole() {
     let server = TestServer::with_session("stage").await;
     let performance = TestPerformance::reference();
-    let take = start(&server, SESSION, "").await.unwrap();
-    let mut publisher = Publisher::open(&server, performance.start(SESSION, "stage"))
-        .await
-        .unwrap();
+    let (take, mut publisher) = record(&server, &performance).await;
     publisher.send(performance.frames(1..=60)).await;
     publisher.durable(60).await.unwrap();
     // A drained server closes its takes; their rows then say so, or, after a crash in between, still that they are recorded.

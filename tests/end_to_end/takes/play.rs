@@ -1,9 +1,9 @@
 //! A take is played again: the same frames, as another session.
 
 use frontalis_proto::v1::{SessionState, Timecode};
-use harness::{Publisher, RecordedTake, TestPerformance, TestServer};
+use harness::{RecordedTake, TestPerformance, TestServer};
 
-use super::{SESSION, export, start, stop};
+use super::{SESSION, export, record, stop};
 use crate::person::Person;
 
 const N_FRAMES: u64 = 90;
@@ -12,10 +12,7 @@ const N_FRAMES: u64 = 90;
 async fn recorded() -> (TestServer, String) {
     let server = TestServer::with_session("stage").await;
     let performance = TestPerformance::reference();
-    let take = start(&server, SESSION, "").await.unwrap();
-    let mut publisher = Publisher::open(&server, performance.start(SESSION, "stage"))
-        .await
-        .unwrap();
+    let (take, mut publisher) = record(&server, &performance).await;
     let mut frames = performance.frames(1..=N_FRAMES);
     for frame in &mut frames {
         frame.source_frame = 1_000 + frame.number;

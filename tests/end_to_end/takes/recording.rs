@@ -6,7 +6,7 @@ use harness::{
 };
 use tonic::Code;
 
-use super::{SESSION, export, get, start, stop};
+use super::{SESSION, export, get, record, start, stop};
 
 const N_FRAMES: u64 = 90;
 
@@ -81,10 +81,7 @@ async fn a_take_begins_and_ends_between_frames_of_a_live_session() {
 async fn a_session_that_ends_closes_its_take() {
     let server = TestServer::with_session("stage").await;
     let performance = TestPerformance::reference();
-    let take = start(&server, SESSION, "").await.unwrap();
-    let mut publisher = Publisher::open(&server, performance.start(SESSION, "stage"))
-        .await
-        .unwrap();
+    let (take, mut publisher) = record(&server, &performance).await;
     publisher.send(performance.frames(1..=50)).await;
     publisher.accepted(50).await.unwrap();
     server.end_session(SESSION).await;

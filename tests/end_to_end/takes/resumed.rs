@@ -3,11 +3,10 @@
 use std::collections::BTreeSet;
 
 use frontalis_client::{
-    capture_client::{CaptureClient, CaptureSettings},
+    capture_client::CaptureClient,
     connection::lazy_channel,
     curve_client::{CurveClient, CurveEvent, CurveSettings, StartAt, Wanted},
 };
-use frontalis_proto::v1::{Ingest, LengthUnit};
 use harness::{
     Heard, RecordedTake, Subscriber, TestPerformance, TestServer, assert_eventually,
     assert_refused, every_frame,
@@ -25,18 +24,6 @@ async fn server() -> TestServer {
     let created = server.create_session("stage", "actors/reference");
     created.await.unwrap();
     server
-}
-
-fn settings(performance: &TestPerformance) -> CaptureSettings {
-    CaptureSettings {
-        session: SESSION.to_owned(),
-        publisher: "camera-1".to_owned(),
-        marker_names: performance.marker_names().to_vec(),
-        unit: LengthUnit::Millimeter,
-        rate_hz: performance.rate_hz,
-        ingest: Ingest::Lossless,
-        takeover: false,
-    }
 }
 
 /// What a subscriber of every frame was told: sequences and frames by run.
@@ -70,9 +57,12 @@ async fn publisher_and_subscriber_go_on_over_a_crash_without_a_hole_or_a_double(
     let performance = TestPerformance::reference();
     let take = start(&server, SESSION, "").await.unwrap();
     let channel = lazy_channel(&server.url()).unwrap();
-    let publisher = CaptureClient::start(channel.clone(), settings(&performance))
-        .await
-        .unwrap();
+    let publisher = CaptureClient::start(
+        channel.clone(),
+        performance.capture_settings(SESSION, "camera-1"),
+    )
+    .await
+    .unwrap();
     let from = StartAt::Oldest;
     let wanted = CurveSettings::new(SESSION, Wanted::EveryFrame { from });
     let mut curves = CurveClient::subscribe(channel, wanted).await.unwrap();
