@@ -13,4 +13,5 @@ pub mod listener;
 pub mod panics;
 pub mod peer;
 pub mod sessions;
+pub mod take_exports;
 pub mod takes;

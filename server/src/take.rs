@@ -6,6 +6,7 @@
 mod channel;
 mod chunk;
 mod events;
+mod export;
 mod figures;
 mod finished;
 mod open_take;
@@ -14,11 +15,14 @@ mod recorder;
 mod rewrite;
 mod scan;
 mod scribe;
+mod stored;
 
 pub use channel::Channel;
+pub use export::{Export, ExportError, ExportSource, Step};
 pub use figures::TakeFigures;
 pub use open_take::{Condition, file_name};
 pub use read::{TakeReader, TakeRecord};
 pub use recorder::{EndedTake, Recorder, StartError, TakeUnderWay};
 pub use rewrite::{Rewritten, TakeFileError};
 pub use scan::ScanError;
+pub use stored::{StoredFile, open_stored};

@@ -157,6 +157,11 @@ impl TestServer {
         }
     }
 
+    /// The server's data directory.
+    pub fn data_dir(&self) -> &std::path::Path {
+        self.config.data_dir.as_ref()
+    }
+
     /// What the files with such names take on disk.
     pub fn disk_bytes(&self, has_name: impl Fn(&str) -> bool) -> u64 {
         let mut folders = vec![self.folder.path().to_owned()];

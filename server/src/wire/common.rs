@@ -3,6 +3,7 @@
 use frontalis_analysis::{
     face::region::FaceRegion,
     space::{HeadPose, LengthUnit},
+    timecode::{Counting, Label, Timecode, TimecodeRate},
 };
 use frontalis_proto::v1;
 
@@ -10,7 +11,7 @@ use super::{
     actor::finite,
     invalid::{FieldError, FieldProblem},
 };
-use crate::hub::{SessionState, Timecode};
+use crate::hub::SessionState;
 
 /// The unit that a publisher must declare: a wrong guess is off by a factor of ten.
 ///
@@ -60,34 +61,38 @@ pub fn session_state(state: SessionState) -> v1::SessionState {
     }
 }
 
-/// A time of day that can occur; `None` when it cannot.
+/// A time of day that can occur; `None` when it cannot (CONTRACTS D-34).
 pub fn timecode(sent: &v1::Timecode) -> Option<Timecode> {
-    let timecode = Timecode {
+    let counting = if sent.drop_frame {
+        Counting::Drop
+    } else {
+        Counting::NonDrop
+    };
+    let rate = TimecodeRate::new(sent.rate_numerator, sent.rate_denominator, counting).ok()?;
+    let label = Label {
         hours: sent.hours,
         minutes: sent.minutes,
         seconds: sent.seconds,
         frames: sent.frames,
-        rate_numerator: sent.rate_numerator,
-        rate_denominator: sent.rate_denominator,
-        drop_frame: sent.drop_frame,
-        sub_frame: sent.sub_frame,
-        user_bits: sent.user_bits,
     };
-    timecode.checked()
+    let timecode = Timecode::new(label, rate).ok()?;
+    let timecode = timecode.with_sub_frame(sent.sub_frame).ok()?;
+    Some(timecode.with_user_bits(sent.user_bits))
 }
 
 /// The time of day on the wire.
 pub fn timecode_to_wire(timecode: &Timecode) -> v1::Timecode {
+    let (label, rate) = (timecode.label(), timecode.rate());
     v1::Timecode {
-        hours: timecode.hours,
-        minutes: timecode.minutes,
-        seconds: timecode.seconds,
-        frames: timecode.frames,
-        rate_numerator: timecode.rate_numerator,
-        rate_denominator: timecode.rate_denominator,
-        drop_frame: timecode.drop_frame,
-        sub_frame: timecode.sub_frame,
-        user_bits: timecode.user_bits,
+        hours: label.hours,
+        minutes: label.minutes,
+        seconds: label.seconds,
+        frames: label.frames,
+        rate_numerator: rate.numerator(),
+        rate_denominator: rate.denominator(),
+        drop_frame: rate.counting() == Counting::Drop,
+        sub_frame: timecode.sub_frame(),
+        user_bits: timecode.user_bits(),
     }
 }
 
@@ -144,5 +149,49 @@ mod tests {
         };
         assert_eq!(timecode_to_wire(&timecode(&sent).unwrap()), sent);
         assert!(timecode(&v1::Timecode::default()).is_none());
+    }
+
+    #[test]
+    fn a25_a_time_of_day_that_cannot_occur_is_none() {
+        let sent = v1::Timecode {
+            minutes: 1,
+            frames: 2,
+            rate_numerator: 30_000,
+            rate_denominator: 1_001,
+            drop_frame: true,
+            ..v1::Timecode::default()
+        };
+        assert!(timecode(&sent).is_some());
+        let fast = v1::Timecode {
+            rate_numerator: 60_000,
+            frames: 4,
+            ..sent
+        };
+        assert!(timecode(&fast).is_some());
+        for broken in [
+            v1::Timecode { hours: 25, ..sent },
+            v1::Timecode { frames: 30, ..sent },
+            v1::Timecode { frames: 1, ..sent },
+            v1::Timecode { frames: 3, ..fast },
+            v1::Timecode {
+                rate_numerator: 25,
+                rate_denominator: 1,
+                ..sent
+            },
+            v1::Timecode {
+                rate_denominator: 0,
+                ..sent
+            },
+            v1::Timecode {
+                sub_frame: 1.0,
+                ..sent
+            },
+            v1::Timecode {
+                sub_frame: f32::NAN,
+                ..sent
+            },
+        ] {
+            assert!(timecode(&broken).is_none(), "{broken:?}");
+        }
     }
 }
