@@ -32,6 +32,23 @@ pub trait AppendFile: Debug + Send {
     fn sync(&mut self) -> io::Result<()>;
 }
 
+/// A file that is read piece by piece. It stays what it was when it was opened, whatever takes its name meanwhile.
+pub trait ReadFile: Debug + Send {
+    /// Reads from `offset` on into `buffer`; returns how many bytes, 0 at the end.
+    ///
+    /// # Errors
+    ///
+    /// As the system says.
+    fn read_at(&mut self, offset: u64, buffer: &mut [u8]) -> io::Result<usize>;
+
+    /// Its length, bytes.
+    ///
+    /// # Errors
+    ///
+    /// As the system says.
+    fn size(&self) -> io::Result<u64>;
+}
+
 /// File system calls, each of which may fail by itself.
 pub trait Fs: Debug + Send + Sync {
     /// Makes `dir` and its parents, unless they exist. A symbolic link in its place is refused.
@@ -62,19 +79,12 @@ pub trait Fs: Debug + Send + Sync {
     /// As the system says.
     fn create(&self, file: &Path) -> io::Result<Box<dyn AppendFile>>;
 
-    /// Reads from `offset` on into `buffer`; returns how many bytes, 0 at the end. A symbolic link is refused.
+    /// Opens a plain file for reading. A symbolic link is refused.
     ///
     /// # Errors
     ///
     /// As the system says.
-    fn read_at(&self, file: &Path, offset: u64, buffer: &mut [u8]) -> io::Result<usize>;
-
-    /// Length of a file, bytes.
-    ///
-    /// # Errors
-    ///
-    /// As the system says.
-    fn size(&self, file: &Path) -> io::Result<u64>;
+    fn open(&self, file: &Path) -> io::Result<Box<dyn ReadFile>>;
 
     /// Bytes that may still be written under `dir`.
     ///

@@ -9,13 +9,16 @@ mod events;
 mod figures;
 mod finished;
 mod open_take;
+mod read;
 mod recorder;
 mod rewrite;
 mod scan;
 mod scribe;
 
+pub use channel::Channel;
 pub use figures::TakeFigures;
 pub use open_take::{Condition, file_name};
+pub use read::{TakeReader, TakeRecord};
 pub use recorder::{EndedTake, Recorder, StartError, TakeUnderWay};
-pub use rewrite::{RewriteError, Rewritten};
+pub use rewrite::{Rewritten, TakeFileError};
 pub use scan::ScanError;

@@ -8,7 +8,7 @@ use std::{
     sync::{Arc, Mutex, MutexGuard, PoisonError},
 };
 
-use super::{AppendFile, Fs};
+use super::{AppendFile, Fs, ReadFile};
 
 /// Files of one process, gone with it; clones share the same files.
 ///
@@ -19,24 +19,32 @@ pub struct MemFs(Arc<Mutex<State>>);
 
 #[derive(Debug, Default)]
 struct State {
-    files: BTreeMap<PathBuf, Content>,
+    files: BTreeMap<PathBuf, File>,
     changes_left: Option<usize>,
 }
 
-/// What a file holds, and how much of it is known to have reached the disk.
+/// A file, which those who opened it go on seeing when its name is given to another.
 #[derive(Clone, Debug, Default)]
+struct File(Arc<Mutex<Content>>);
+
+impl File {
+    fn synced(bytes: &[u8]) -> Self {
+        Self(Arc::new(Mutex::new(Content {
+            n_synced: bytes.len(),
+            bytes: bytes.to_vec(),
+        })))
+    }
+
+    fn content(&self) -> MutexGuard<'_, Content> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// What a file holds, and how much of it is known to have reached the disk.
+#[derive(Debug, Default)]
 struct Content {
     bytes: Vec<u8>,
     n_synced: usize,
-}
-
-impl Content {
-    fn synced(bytes: &[u8]) -> Self {
-        Self {
-            n_synced: bytes.len(),
-            bytes: bytes.to_vec(),
-        }
-    }
 }
 
 impl MemFs {
@@ -46,13 +54,14 @@ impl MemFs {
     #[must_use]
     pub fn after_power_cut(&self, mut torn: impl FnMut(&Path, &[u8]) -> Vec<u8>) -> Self {
         let after = Self::default();
-        for (name, content) in &self.state().files {
+        for (name, file) in &self.state().files {
+            let content = file.content();
             let (synced, rest) = content.bytes.split_at(content.n_synced);
             let bytes = [synced, &torn(name, rest)].concat();
             after
                 .state()
                 .files
-                .insert(name.clone(), Content::synced(&bytes));
+                .insert(name.clone(), File::synced(&bytes));
         }
         after
     }
@@ -84,14 +93,14 @@ impl Fs for MemFs {
 
     fn read(&self, file: &Path) -> io::Result<Vec<u8>> {
         let state = self.state();
-        let found = state.files.get(file).map(|it| it.bytes.clone());
+        let found = state.files.get(file).map(|it| it.content().bytes.clone());
         found.ok_or_else(|| io::ErrorKind::NotFound.into())
     }
 
     fn write_and_sync(&self, file: &Path, content: &[u8]) -> io::Result<()> {
         self.change()?
             .files
-            .insert(file.to_owned(), Content::synced(content));
+            .insert(file.to_owned(), File::synced(content));
         Ok(())
     }
 
@@ -100,27 +109,18 @@ impl Fs for MemFs {
         if state.files.contains_key(file) {
             return Err(io::ErrorKind::AlreadyExists.into());
         }
-        state.files.insert(file.to_owned(), Content::default());
+        let new = File::default();
+        state.files.insert(file.to_owned(), new.clone());
         Ok(Box::new(Growing {
             fs: self.clone(),
-            file: file.to_owned(),
+            file: new,
         }))
     }
 
-    fn read_at(&self, file: &Path, offset: u64, buffer: &mut [u8]) -> io::Result<usize> {
+    fn open(&self, file: &Path) -> io::Result<Box<dyn ReadFile>> {
         let state = self.state();
-        let content = state.files.get(file).ok_or(io::ErrorKind::NotFound)?;
-        let offset = usize::try_from(offset).unwrap_or(usize::MAX);
-        let rest = content.bytes.get(offset..).unwrap_or_default();
-        let n_bytes = rest.len().min(buffer.len());
-        buffer[..n_bytes].copy_from_slice(&rest[..n_bytes]);
-        Ok(n_bytes)
-    }
-
-    fn size(&self, file: &Path) -> io::Result<u64> {
-        let state = self.state();
-        let content = state.files.get(file).ok_or(io::ErrorKind::NotFound)?;
-        Ok(content.bytes.len() as u64)
+        let found = state.files.get(file).cloned();
+        Ok(Box::new(found.ok_or(io::ErrorKind::NotFound)?))
     }
 
     fn free_bytes(&self, _dir: &Path) -> io::Result<u64> {
@@ -152,28 +152,39 @@ impl Fs for MemFs {
     }
 }
 
+impl ReadFile for File {
+    fn read_at(&mut self, offset: u64, buffer: &mut [u8]) -> io::Result<usize> {
+        let content = self.content();
+        let offset = usize::try_from(offset).unwrap_or(usize::MAX);
+        let rest = content.bytes.get(offset..).unwrap_or_default();
+        let n_bytes = rest.len().min(buffer.len());
+        buffer[..n_bytes].copy_from_slice(&rest[..n_bytes]);
+        Ok(n_bytes)
+    }
+
+    fn size(&self) -> io::Result<u64> {
+        Ok(self.content().bytes.len() as u64)
+    }
+}
+
 /// A file of memory that is appended to.
 #[derive(Debug)]
 struct Growing {
     fs: MemFs,
-    file: PathBuf,
-}
-
-impl Growing {
-    fn change(&self, with: impl FnOnce(&mut Content)) -> io::Result<()> {
-        let mut state = self.fs.change()?;
-        let content = state.files.get_mut(&self.file);
-        with(content.ok_or(io::ErrorKind::NotFound)?);
-        Ok(())
-    }
+    file: File,
 }
 
 impl AppendFile for Growing {
     fn append(&mut self, bytes: &[u8]) -> io::Result<()> {
-        self.change(|it| it.bytes.extend_from_slice(bytes))
+        let _changing = self.fs.change()?;
+        self.file.content().bytes.extend_from_slice(bytes);
+        Ok(())
     }
 
     fn sync(&mut self) -> io::Result<()> {
-        self.change(|it| it.n_synced = it.bytes.len())
+        let _changing = self.fs.change()?;
+        let mut content = self.file.content();
+        content.n_synced = content.bytes.len();
+        Ok(())
     }
 }

@@ -7,7 +7,7 @@ use std::{
     path::Path,
 };
 
-use super::{AppendFile, Fs};
+use super::{AppendFile, Fs, ReadFile};
 
 /// The operating system's file system.
 #[derive(Clone, Copy, Debug, Default)]
@@ -40,16 +40,9 @@ impl Fs for StdFs {
         Ok(Box::new(Growing(new)))
     }
 
-    fn read_at(&self, file: &Path, offset: u64, buffer: &mut [u8]) -> io::Result<usize> {
+    fn open(&self, file: &Path) -> io::Result<Box<dyn ReadFile>> {
         refuse_link(file)?;
-        let mut open = File::open(file)?;
-        open.seek(SeekFrom::Start(offset))?;
-        open.read(buffer)
-    }
-
-    fn size(&self, file: &Path) -> io::Result<u64> {
-        refuse_link(file)?;
-        Ok(fs::metadata(file)?.len())
+        Ok(Box::new(Opened(File::open(file)?)))
     }
 
     fn free_bytes(&self, dir: &Path) -> io::Result<u64> {
@@ -92,6 +85,21 @@ impl AppendFile for Growing {
 
     fn sync(&mut self) -> io::Result<()> {
         self.0.sync_data()
+    }
+}
+
+/// A file that is open for reading.
+#[derive(Debug)]
+struct Opened(File);
+
+impl ReadFile for Opened {
+    fn read_at(&mut self, offset: u64, buffer: &mut [u8]) -> io::Result<usize> {
+        self.0.seek(SeekFrom::Start(offset))?;
+        self.0.read(buffer)
+    }
+
+    fn size(&self) -> io::Result<u64> {
+        Ok(self.0.metadata()?.len())
     }
 }
 

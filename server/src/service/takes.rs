@@ -16,7 +16,7 @@ use crate::{
     name::{SessionId, TakeId},
     session::{SessionHandle, SessionRegistry},
     take::{
-        Condition, EndedTake, Recorder, RewriteError, Rewritten, StartError, TakeUnderWay,
+        Condition, EndedTake, Recorder, Rewritten, StartError, TakeFileError, TakeUnderWay,
         file_name,
     },
     wire::{page::Page, session::effective},
@@ -258,7 +258,7 @@ impl Takes {
         let (fs, file) = (Arc::clone(&self.fs), self.dir.join(name));
         let read = self.recorder.run(move || {
             let mut piece = vec![0; n_bytes];
-            let n_read = fs.read_at(&file, offset, &mut piece)?;
+            let n_read = fs.open(&file)?.read_at(offset, &mut piece)?;
             piece.truncate(n_read);
             Ok::<_, io::Error>(piece)
         });
@@ -318,7 +318,7 @@ impl Takes {
         Ok(n_takes)
     }
 
-    fn recovered(&self, row: TakeRow, rewritten: Result<Rewritten, RewriteError>) -> TakeRow {
+    fn recovered(&self, row: TakeRow, rewritten: Result<Rewritten, TakeFileError>) -> TakeRow {
         let stop_time_nanos = Some(row.stop_time_nanos.unwrap_or_else(|| self.unix_now()));
         match rewritten {
             Ok(it) => {

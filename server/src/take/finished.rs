@@ -9,40 +9,78 @@ use mcap::{
 
 use super::{
     channel::Channel,
-    rewrite::{RewriteError, Rewritten},
+    read::TakeRecord,
+    rewrite::{Rewritten, TakeFileError},
 };
-use crate::fs::Fs;
+use crate::fs::{Fs, ReadFile};
 
 /// Longest record that is read; chunks of ours are far shorter.
 const MAX_RECORD_BYTES: usize = 64 << 20;
 
-/// What a file of the final form holds; every checksum is looked at.
-///
-/// # Errors
-///
-/// [`RewriteError`] when it has another form, or is damaged.
-pub fn finished(fs: &dyn Fs, file: &Path) -> Result<Rewritten, RewriteError> {
-    let options = LinearReaderOptions::default()
-        .with_prevalidate_chunk_crcs(true)
-        .with_validate_chunk_crcs(true)
-        .with_record_length_limit(MAX_RECORD_BYTES);
-    let mut reader = LinearReader::new_with_options(options);
-    let mut found = Rewritten::default();
-    while let Some(event) = reader.next_event() {
-        match event? {
-            LinearReadEvent::ReadRequest(n_bytes) => {
-                let n_read = fs.read_at(file, found.n_bytes, reader.insert(n_bytes))?;
-                found.n_bytes += n_read as u64;
-                reader.notify_read(n_read);
-            }
-            LinearReadEvent::Record { data, opcode } => {
-                if let Record::Message { header, data } = mcap::parse_record(opcode, data)?
-                    && let Some(channel) = Channel::of(header.channel_id)
-                {
-                    found.figures.count(channel, &data);
+/// The messages of a file of the final form, in order; every checksum is looked at.
+pub(super) struct FinishedFile {
+    file: Box<dyn ReadFile>,
+    offset: u64,
+    reader: LinearReader,
+}
+
+impl FinishedFile {
+    /// Starts at the beginning of `file`.
+    pub(super) fn start(file: Box<dyn ReadFile>) -> Self {
+        let options = LinearReaderOptions::default()
+            .with_prevalidate_chunk_crcs(true)
+            .with_validate_chunk_crcs(true)
+            .with_record_length_limit(MAX_RECORD_BYTES);
+        Self {
+            file,
+            offset: 0,
+            reader: LinearReader::new_with_options(options),
+        }
+    }
+
+    /// The next message of a channel of ours; `None` at the end.
+    ///
+    /// # Errors
+    ///
+    /// [`TakeFileError`] when the file has another form, or is damaged.
+    pub(super) fn next(&mut self) -> Result<Option<TakeRecord>, TakeFileError> {
+        while let Some(event) = self.reader.next_event() {
+            match event? {
+                LinearReadEvent::ReadRequest(n_bytes) => {
+                    let place = self.reader.insert(n_bytes);
+                    let n_read = self.file.read_at(self.offset, place)?;
+                    self.offset += n_read as u64;
+                    self.reader.notify_read(n_read);
+                }
+                LinearReadEvent::Record { data, opcode } => {
+                    if let Record::Message { header, data } = mcap::parse_record(opcode, data)?
+                        && let Some(channel) = Channel::of(header.channel_id)
+                    {
+                        return Ok(Some(TakeRecord {
+                            channel,
+                            sequence: header.sequence,
+                            time_nanos: header.log_time,
+                            data: data.into_owned(),
+                        }));
+                    }
                 }
             }
         }
+        Ok(None)
     }
+}
+
+/// What a file of the final form holds.
+///
+/// # Errors
+///
+/// [`TakeFileError`] when it has another form, or is damaged.
+pub fn finished(fs: &dyn Fs, file: &Path) -> Result<Rewritten, TakeFileError> {
+    let mut messages = FinishedFile::start(fs.open(file)?);
+    let mut found = Rewritten::default();
+    while let Some(message) = messages.next()? {
+        found.figures.count(message.channel, &message.data);
+    }
+    found.n_bytes = messages.offset;
     Ok(found)
 }

@@ -19,7 +19,7 @@ use super::{
     figures::TakeFigures,
     finished::finished,
     open_take::{Condition, OpenTake, file_name},
-    rewrite::{RewriteError, Rewritten, rewrite},
+    rewrite::{Rewritten, TakeFileError, rewrite},
     scan::ScanError,
     scribe::{Progress, Scribe, unix_nanos},
 };
@@ -293,12 +293,12 @@ impl Recorder {
     ///
     /// # Errors
     ///
-    /// [`RewriteError`]; the file is then as it was.
-    pub async fn try_rewrite(&self, id: &TakeId) -> Result<Rewritten, RewriteError> {
+    /// [`TakeFileError`]; the file is then as it was.
+    pub async fn try_rewrite(&self, id: &TakeId) -> Result<Rewritten, TakeFileError> {
         let (fs, dir) = (Arc::clone(&self.inner.fs), self.inner.dir.clone());
         let name = file_name(id);
         let work = move || match rewrite(&*fs, &dir, &name) {
-            Err(RewriteError::Scan(ScanError::Head)) => finished(&*fs, &dir.join(&name)),
+            Err(TakeFileError::Scan(ScanError::Head)) => finished(&*fs, &dir.join(&name)),
             other => other,
         };
         self.inner.rewrites.run(work).await

@@ -37,9 +37,9 @@ pub struct Rewritten {
     pub n_tail_bytes: u64,
 }
 
-/// Why a take could not be rewritten. The file that grew is then still there.
+/// Why a take's file cannot be read, or not be put into its final form; what is there stays.
 #[derive(Debug, thiserror::Error)]
-pub enum RewriteError {
+pub enum TakeFileError {
     /// It could not be read.
     #[error(transparent)]
     Scan(#[from] ScanError),
@@ -55,8 +55,8 @@ pub enum RewriteError {
 ///
 /// # Errors
 ///
-/// [`RewriteError`]; the file is then as it was.
-pub fn rewrite(fs: &dyn Fs, dir: &Path, name: &str) -> Result<Rewritten, RewriteError> {
+/// [`TakeFileError`]; the file is then as it was.
+pub fn rewrite(fs: &dyn Fs, dir: &Path, name: &str) -> Result<Rewritten, TakeFileError> {
     let file = dir.join(name);
     let temporary = dir.join(format!("{name}{TEMPORARY_SUFFIX}"));
     fs.remove(&temporary)?;
@@ -66,8 +66,10 @@ pub fn rewrite(fs: &dyn Fs, dir: &Path, name: &str) -> Result<Rewritten, Rewrite
     Ok(rewritten)
 }
 
-fn copy(fs: &dyn Fs, from: &Path, to: &Path) -> Result<Rewritten, RewriteError> {
-    let mut scan = Scan::start(fs, from)?;
+fn copy(fs: &dyn Fs, from: &Path, to: &Path) -> Result<Rewritten, TakeFileError> {
+    let grown = fs.open(from)?;
+    let size = grown.size()?;
+    let mut scan = Scan::start(grown, size)?;
     let sink = Sink {
         file: fs.create(to)?,
         n_bytes: 0,
@@ -93,7 +95,7 @@ struct Copy {
 }
 
 impl Copy {
-    fn start(sink: Sink) -> Result<Self, RewriteError> {
+    fn start(sink: Sink) -> Result<Self, TakeFileError> {
         let options = channel::options()
             .compression(Some(Compression::Zstd))
             .chunk_size(Some(CHUNK_BYTES));
@@ -107,7 +109,7 @@ impl Copy {
         })
     }
 
-    fn add_all(&mut self, messages: &[Message<'_>]) -> Result<(), RewriteError> {
+    fn add_all(&mut self, messages: &[Message<'_>]) -> Result<(), TakeFileError> {
         for message in messages {
             self.rewritten.figures.count(message.channel, message.data);
             self.add(message)?;
@@ -115,7 +117,7 @@ impl Copy {
         Ok(())
     }
 
-    fn add(&mut self, message: &Message<'_>) -> Result<(), RewriteError> {
+    fn add(&mut self, message: &Message<'_>) -> Result<(), TakeFileError> {
         self.time_nanos = message.time_nanos;
         if message.channel == Channel::Events {
             self.next_event = message.sequence.saturating_add(1);
@@ -130,7 +132,7 @@ impl Copy {
     }
 
     /// Says where something is missing.
-    fn add_cut(&mut self, n_bytes: u64) -> Result<(), RewriteError> {
+    fn add_cut(&mut self, n_bytes: u64) -> Result<(), TakeFileError> {
         self.rewritten.n_damaged_bytes += n_bytes;
         let event = TakeEvent {
             event: Some(Event::Cut(TakeCut { n_bytes })),
@@ -143,7 +145,7 @@ impl Copy {
         })
     }
 
-    fn finish(mut self) -> Result<Rewritten, RewriteError> {
+    fn finish(mut self) -> Result<Rewritten, TakeFileError> {
         self.writer.finish()?;
         let mut sink = self.writer.into_inner().into_inner();
         sink.file.sync()?;

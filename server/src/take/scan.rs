@@ -1,12 +1,12 @@
 //! Reading a take's file as it grew: chunk after chunk, past what was damaged (CONTRACTS U-5).
 
-use std::{io, path::Path};
+use std::io;
 
 use super::{
     channel,
     chunk::{self, CHUNK_START_BYTES, Message},
 };
-use crate::fs::Fs;
+use crate::fs::ReadFile;
 
 /// What stands next in a file.
 #[derive(Debug, PartialEq, Eq)]
@@ -44,24 +44,21 @@ const SEARCH_BYTES: usize = 1 << 20;
 
 /// The pieces of one file, in order.
 #[derive(Debug)]
-pub struct Scan<'a> {
-    fs: &'a dyn Fs,
-    file: &'a Path,
+pub struct Scan {
+    file: Box<dyn ReadFile>,
     offset: u64,
     size: u64,
 }
 
-impl<'a> Scan<'a> {
-    /// Starts behind the head of `file`.
+impl Scan {
+    /// Starts behind the head of `file`, of which `size` bytes are read.
     ///
     /// # Errors
     ///
     /// [`ScanError::Head`] when it is not that of a growing take.
-    pub fn start(fs: &'a dyn Fs, file: &'a Path) -> Result<Self, ScanError> {
+    pub fn start(file: Box<dyn ReadFile>, size: u64) -> Result<Self, ScanError> {
         let head = channel::head()?;
-        let size = fs.size(file)?;
         let mut scan = Self {
-            fs,
             file,
             offset: 0,
             size,
@@ -96,7 +93,12 @@ impl<'a> Scan<'a> {
         }))
     }
 
-    fn chunk_at(&self, offset: u64) -> io::Result<Option<Vec<u8>>> {
+    /// Reads on to `size`: the file grew.
+    pub fn grow(&mut self, size: u64) {
+        self.size = self.size.max(size);
+    }
+
+    fn chunk_at(&mut self, offset: u64) -> io::Result<Option<Vec<u8>>> {
         let start = self.bytes_at(offset, CHUNK_START_BYTES)?;
         let Some(n_bytes) = chunk::announced_bytes(&start) else {
             return Ok(None);
@@ -109,7 +111,7 @@ impl<'a> Scan<'a> {
     }
 
     /// Where the first whole chunk at or behind `from` starts.
-    fn find_chunk(&self, from: u64) -> io::Result<Option<u64>> {
+    fn find_chunk(&mut self, from: u64) -> io::Result<Option<u64>> {
         let mut block_start = from;
         while block_start < self.size {
             // Blocks overlap, so that no start of a chunk is cut.
@@ -127,18 +129,18 @@ impl<'a> Scan<'a> {
         Ok(None)
     }
 
-    fn bytes(&self, n_bytes: usize) -> io::Result<Vec<u8>> {
+    fn bytes(&mut self, n_bytes: usize) -> io::Result<Vec<u8>> {
         self.bytes_at(self.offset, n_bytes)
     }
 
     /// As many of the bytes as there are.
-    fn bytes_at(&self, offset: u64, n_bytes: usize) -> io::Result<Vec<u8>> {
+    fn bytes_at(&mut self, offset: u64, n_bytes: usize) -> io::Result<Vec<u8>> {
         let left = usize::try_from(self.size.saturating_sub(offset)).unwrap_or(usize::MAX);
         let mut bytes = vec![0; n_bytes.min(left)];
         let mut n_read = 0;
         while n_read < bytes.len() {
             let place = offset + n_read as u64;
-            match self.fs.read_at(self.file, place, &mut bytes[n_read..])? {
+            match self.file.read_at(place, &mut bytes[n_read..])? {
                 0 => break,
                 n => n_read += n,
             }

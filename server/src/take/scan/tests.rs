@@ -1,8 +1,10 @@
 //! Cuts and flipped bits in a file that grew (CONTRACTS G3).
 
+use std::path::Path;
+
 use super::*;
 use crate::{
-    fs::MemFs,
+    fs::{Fs as _, MemFs},
     take::{channel::Channel, chunk::ChunkBuffer},
 };
 
@@ -32,10 +34,16 @@ fn file(n_chunks: u32) -> (Vec<u8>, Vec<usize>) {
     (bytes, starts)
 }
 
+fn start(fs: &MemFs) -> Result<Scan, ScanError> {
+    let file = fs.open(Path::new(FILE))?;
+    let size = file.size()?;
+    Scan::start(file, size)
+}
+
 fn scan(bytes: &[u8]) -> Vec<Piece> {
     let fs = MemFs::default();
     fs.write_and_sync(Path::new(FILE), bytes).unwrap();
-    let mut scan = Scan::start(&fs, Path::new(FILE)).unwrap();
+    let mut scan = start(&fs).unwrap();
     let mut pieces = Vec::new();
     while let Some(piece) = scan.next().unwrap() {
         pieces.push(piece);
@@ -101,6 +109,6 @@ fn a_file_without_a_take_s_head_is_not_read() {
     let (mut bytes, _) = file(1);
     bytes[20] ^= 1;
     fs.write_and_sync(Path::new(FILE), &bytes).unwrap();
-    let refused = Scan::start(&fs, Path::new(FILE)).unwrap_err();
+    let refused = start(&fs).unwrap_err();
     assert!(matches!(refused, ScanError::Head), "{refused}");
 }

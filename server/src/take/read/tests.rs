@@ -1,0 +1,85 @@
+//! Both forms of a file give the same messages, and never more than was asked for.
+
+use super::*;
+use crate::{
+    fs::MemFs,
+    take::{channel, chunk::ChunkBuffer, rewrite::rewrite},
+};
+
+const DIR: &str = "/takes";
+const NAME: &str = "one.mcap";
+
+fn file() -> std::path::PathBuf {
+    Path::new(DIR).join(NAME)
+}
+
+/// A growing file of one frame and one sample a commit, and where its commits end.
+fn growing(fs: &MemFs, n_commits: u32) -> Vec<u64> {
+    let mut file = fs.create(&file()).unwrap();
+    let mut ends = Vec::new();
+    file.append(&channel::head().unwrap()).unwrap();
+    for sequence in 0..n_commits {
+        let mut buffer = ChunkBuffer::default();
+        for channel in [Channel::Markers, Channel::Curves] {
+            buffer.add(&Message {
+                channel,
+                sequence,
+                time_nanos: u64::from(sequence),
+                data: &sequence.to_le_bytes(),
+            });
+        }
+        file.append(&buffer.take()).unwrap();
+        ends.push(fs.open(&self::file()).unwrap().size().unwrap());
+    }
+    file.sync().unwrap();
+    ends
+}
+
+fn all(reader: &mut TakeReader) -> Vec<TakeRecord> {
+    let mut records = Vec::new();
+    while let Some(batch) = reader.next_batch().unwrap() {
+        assert!(!batch.is_empty());
+        records.extend(batch);
+    }
+    records
+}
+
+#[test]
+fn both_forms_give_the_same_messages() {
+    let fs = MemFs::default();
+    growing(&fs, 300);
+    let before = all(&mut TakeReader::open(&fs, &file(), u64::MAX).unwrap());
+    assert_eq!(before.len(), 600);
+    rewrite(&fs, Path::new(DIR), NAME).unwrap();
+    let after = all(&mut TakeReader::open(&fs, &file(), 0).unwrap());
+    assert_eq!(after, before);
+}
+
+#[test]
+fn a_growing_file_is_read_as_far_as_was_said_and_to_its_end_when_it_is_replaced() {
+    let fs = MemFs::default();
+    let ends = growing(&fs, 5);
+    let mut reader = TakeReader::open(&fs, &file(), ends[2]).unwrap();
+    assert_eq!(all(&mut reader).len(), 6);
+    rewrite(&fs, Path::new(DIR), NAME).unwrap();
+    reader.grow(ends[4]);
+    let rest = all(&mut reader);
+    assert_eq!(rest.len(), 4);
+    assert_eq!(rest[0].sequence, 3);
+}
+
+#[test]
+fn damage_stands_where_it_is() {
+    let fs = MemFs::default();
+    let ends = growing(&fs, 3);
+    let mut bytes = fs.read(&file()).unwrap();
+    bytes[usize::try_from(ends[0]).unwrap() + 40] ^= 1;
+    fs.write_and_sync(&file(), &bytes).unwrap();
+    let records = all(&mut TakeReader::open(&fs, &file(), u64::MAX).unwrap());
+    let channels: Vec<_> = records.iter().map(|it| it.channel).collect();
+    let commit = [Channel::Markers, Channel::Curves];
+    assert_eq!(
+        channels,
+        [&commit[..], &[Channel::Events], &commit[..]].concat()
+    );
+}
