@@ -34,6 +34,12 @@ const EXPORT_COPIES: u64 = 3;
 /// Program, database cache, runtime.
 const FIXED_BYTES: u64 = 128 * MIB;
 
+/// Takes that are solved again at once.
+pub const RESOLVES: usize = 2;
+
+/// Each holds three revisions of its actor, and of its file what was read and what is to be written.
+const RESOLVE_BYTES: u64 = 3 * ACTOR_BYTES + 2 * 64 * MIB;
+
 /// One line of the sum.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct MemoryItem {
@@ -64,6 +70,7 @@ pub fn worst_case(config: &Config) -> Vec<MemoryItem> {
     );
     let per_export = product(limits.package_mib, EXPORT_COPIES * MIB).saturating_add(ACTOR_BYTES);
     let bodies = product(LARGE_BODIES as u64, BODY_COPIES * LARGE_BODY_BYTES as u64);
+    let resolves = product(RESOLVES as u64, RESOLVE_BYTES);
     vec![
         item("waiting frames and windows of all sessions", sessions),
         item("messages on their way in", messages),
@@ -74,6 +81,7 @@ pub fn worst_case(config: &Config) -> Vec<MemoryItem> {
         ),
         item("imports", imports),
         item("exports", product(limits.exports, per_export)),
+        item("takes being solved again", resolves),
         item("large bodies of HTTP", bodies),
         item("loaded actors", product(limits.cached_actors, ACTOR_BYTES)),
         item("the program itself", FIXED_BYTES),

@@ -1,8 +1,6 @@
 //! What a session publishes: samples, and gaps where frames gave none (CONTRACTS D-2, D-4).
 
-use frontalis_analysis::curve::CurveSample;
-
-use super::timecode::Timecode;
+use frontalis_analysis::{curve::CurveSample, timecode::Timecode};
 
 /// One curve sample with its place in the stream and what its frame brought along.
 #[derive(Clone, Debug, PartialEq)]

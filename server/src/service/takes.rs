@@ -1,17 +1,21 @@
 //! Takes as every door sees them: what is being recorded joined with what the catalogue keeps.
 
+mod resolve;
+
 use std::{io, path::PathBuf, sync::Arc};
 
 use frontalis_proto::v1;
 use futures::Stream;
 use sha2::{Digest as _, Sha256};
-use tokio::sync::watch;
+use tokio::sync::{Semaphore, watch};
 use tonic::Status;
 
 use super::grpc::status::refuse;
 use crate::{
     catalogue::{CatalogueError, Store, TakeContent, TakeFilter, TakeLabels, TakeRow, TakeState},
     clock::ServerClock,
+    config::RESOLVES,
+    executor::Workers,
     fs::{Fs, TEMPORARY_SUFFIX},
     name::{SessionId, TakeId},
     session::{SessionHandle, SessionRegistry},
@@ -21,6 +25,8 @@ use crate::{
     },
     wire::{page::Page, session::effective},
 };
+
+pub use resolve::ResolveOrder;
 
 /// Bytes of a take's file in one message.
 const PIECE_BYTES: usize = 64 * 1024;
@@ -37,6 +43,9 @@ pub struct Takes {
     clock: ServerClock,
     fs: Arc<dyn Fs>,
     dir: PathBuf,
+    /// One permit a re-solve.
+    resolves: Arc<Semaphore>,
+    resolvers: Workers,
 }
 
 impl Takes {
@@ -55,6 +64,8 @@ impl Takes {
             clock,
             fs,
             dir,
+            resolves: Arc::new(Semaphore::new(RESOLVES)),
+            resolvers: Workers::pool(RESOLVES),
         }
     }
 
@@ -83,6 +94,9 @@ impl Takes {
             content: TakeContent::default(),
             state: TakeState::Recording,
             recovered: false,
+            resolved_from: None,
+            start_timecode: None,
+            with_images: false,
         };
         let row = self.store.add_take(row).await?;
         let begun = self.begin(&row, handle).await;
@@ -124,9 +138,8 @@ impl Takes {
             start_time: Some(crate::wire::actor::timestamp(row.start_time_nanos)),
             controls: muscles.map(|it| it.name.clone()).collect(),
             markers: actor.markers().iter().map(|it| it.name.clone()).collect(),
-            next_sequence: 0,
             server_version: env!("CARGO_PKG_VERSION").to_owned(),
-            next_frame: 0,
+            ..v1::TakeHeader::default()
         })
     }
 
@@ -159,6 +172,7 @@ impl Takes {
                 n_bytes: ended.n_bytes,
             },
             state,
+            start_timecode: ended.figures.start_timecode,
             ..row
         };
         self.store.end_take(ended).await
@@ -199,7 +213,11 @@ impl Takes {
             n_frames: figures.n_frames,
             n_bytes,
         };
-        TakeRow { content, ..row }
+        TakeRow {
+            content,
+            start_timecode: figures.start_timecode,
+            ..row
+        }
     }
 
     /// A page of the takes that are seen.
@@ -338,6 +356,7 @@ impl Takes {
                         n_bytes: it.n_bytes,
                     },
                     state: TakeState::Closed,
+                    start_timecode: it.figures.start_timecode,
                     recovered: true,
                     ..row
                 }

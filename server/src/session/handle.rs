@@ -156,7 +156,9 @@ impl SessionHandle {
     ///
     /// [`SessionError`] when the session takes no requests any more.
     pub fn record(&self) -> Result<RecordingFeed, SessionError> {
-        self.shared.intake().record()
+        let feed = self.shared.intake().record()?;
+        self.shared.work.notify_one();
+        Ok(feed)
     }
 
     /// Hands on nothing more.

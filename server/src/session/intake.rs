@@ -10,6 +10,7 @@ use std::{
 };
 
 use super::{
+    capture_order::CaptureOrder,
     command::{Command, Source},
     error::SessionError,
     frame::{IncomingFrame, Rejection},
@@ -112,7 +113,7 @@ pub(super) struct Intake {
     lease: Option<Lease>,
     newest_epoch: u64,
     last_owner: Option<Owner>,
-    last_capture_nanos: Option<i64>,
+    capture_order: CaptureOrder,
     order: FrameOrder,
     queue: WorkQueue,
     limit: RateLimit,
@@ -131,7 +132,7 @@ impl Intake {
             lease: None,
             newest_epoch: 0,
             last_owner: None,
-            last_capture_nanos: None,
+            capture_order: CaptureOrder::default(),
             order: FrameOrder::new(nanos(limits.resend_span)),
             queue: WorkQueue::new(limits.waiting_frames, limits.waiting_bytes, limits.budget),
             limit: RateLimit::new(limits.live_rate_hz, now_nanos),
@@ -147,8 +148,15 @@ impl Intake {
     /// Hands on all that comes in from now on; an earlier recording ends.
     pub(super) fn record(&mut self) -> Result<RecordingFeed, SessionError> {
         self.check_open()?;
+        self.check_room_for_a_command()?;
         let next_frame = self.order.next_expected().max(1);
-        Ok(self.tape.start(next_frame, self.accepted_through()))
+        let last_capture_nanos = self.capture_order.last_nanos();
+        let accepted_through = self.accepted_through();
+        let (tap, feed) = self
+            .tape
+            .start(next_frame, accepted_through, last_capture_nanos);
+        self.queue.push_command(Command::Record(tap));
+        Ok(feed)
     }
 
     /// Hands on nothing more. Until [`Self::recording_settled`] the publisher still waits for stable storage.
@@ -233,7 +241,7 @@ impl Intake {
         self.fence(grant.epoch);
         self.newest_epoch = grant.epoch;
         let owner = Owner::of(&grant.claim);
-        self.note_owner(&owner);
+        let is_other = self.note_owner(&owner);
         let mailbox = Arc::new(Mailbox::new(grant.epoch));
         self.last_mailbox = Arc::downgrade(&mailbox);
         self.lease = Some(Lease {
@@ -249,6 +257,8 @@ impl Intake {
             epoch: grant.epoch,
             shape: shape.clone(),
             rate_hz: grant.rate_hz,
+            is_continued: false,
+            is_other,
         });
         self.queue.push_command(Command::Source(Source {
             shape,
@@ -267,13 +277,15 @@ impl Intake {
         }
     }
 
-    fn note_owner(&mut self, owner: &Owner) {
-        if self.last_owner.as_ref().is_some_and(|it| it != owner) {
+    /// Whether it is another one than before.
+    fn note_owner(&mut self, owner: &Owner) -> bool {
+        let is_other = self.last_owner.as_ref().is_some_and(|it| it != owner);
+        if is_other {
             self.order.publisher_changed();
-            // Another publisher's clock says nothing about this one's.
-            self.last_capture_nanos = None;
+            self.capture_order.another_clock();
         }
         self.last_owner = Some(owner.clone());
+        is_other
     }
 
     /// Judges a frame and takes it when it is new and there is room.
@@ -372,8 +384,7 @@ impl Intake {
         self.counts.received += 1;
         self.counts.partial_markers += frame.n_partial_markers as u64;
         self.meter.count(now_nanos);
-        let previous = self.last_capture_nanos.replace(frame.capture_time_nanos);
-        frame.tag.time_non_monotonic = previous.is_some_and(|it| frame.capture_time_nanos <= it);
+        frame.tag.time_non_monotonic = self.capture_order.is_broken_by(frame.capture_time_nanos);
         if let Some(lease) = &mut self.lease {
             lease.n_rejects_in_a_row = 0;
         }
@@ -448,17 +459,12 @@ impl Intake {
         told
     }
 
-    /// Ends the lease of a publication whose neutral face could not be aligned, and gives up its waiting frames.
+    /// Ends the lease of a publication whose frames cannot be solved; those that wait are given up where they are solved.
     pub(super) fn give_up(&mut self, mailbox: &Mailbox, end: PublishEnd) {
-        let cause = match end {
-            PublishEnd::TooManyRejects { .. } => GapCause::Rejected,
-            _ => GapCause::NotAligned,
-        };
         mailbox.end(end);
         if self.check_lease(mailbox).is_ok() {
             self.lease = None;
         }
-        self.queue.give_up_frames(cause);
     }
 
     /// Refuses a frame that was taken before it could be seen to be unusable.

@@ -222,6 +222,7 @@ impl Recorder {
         let header = v1::TakeHeader {
             next_sequence,
             next_frame: feed.next_frame,
+            last_capture_time_nanos: feed.last_capture_nanos,
             ..header
         };
         take.add_event(Event::Header(header), now);

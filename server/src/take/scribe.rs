@@ -17,7 +17,7 @@ use crate::{
 const LAST_SAMPLES: Duration = Duration::from_secs(2);
 
 /// What is kept of every sample.
-const DETAIL: SampleDetail = SampleDetail {
+pub(super) const DETAIL: SampleDetail = SampleDetail {
     with_uncertainty: true,
     with_markers: false,
 };
@@ -98,7 +98,7 @@ impl Scribe {
             if !frame.is_late {
                 self.progress.last_frame = frame.number;
             }
-            return self.take.add_frame(frame.number, &frame.sent, time_nanos);
+            return self.take.add_frame(frame, time_nanos);
         }
         if let Some(event) = events::recorded(recorded) {
             self.take.add_event(event, self.now());

@@ -7,6 +7,7 @@ use std::{
     hash::{DefaultHasher, Hasher},
 };
 
+use bytes::Bytes;
 use frontalis_analysis::space::{LengthUnit, PerformancePoint};
 use frontalis_proto::v1;
 use prost::Message as _;
@@ -123,6 +124,22 @@ fn check_marker_names(names: &[String]) -> Result<(), FieldError> {
 ///
 /// [`Rejection`] with the reason of the bad-input table; the stream goes on.
 pub fn frame(sent: &v1::MarkerFrame, shape: &StreamShape) -> Result<IncomingFrame, Rejection> {
+    Ok(IncomingFrame {
+        content_hash: content_hash(sent),
+        sent: sent.encode_to_vec().into(),
+        ..recorded_frame(sent, shape)?
+    })
+}
+
+/// The same of a frame that is neither compared with others nor recorded again.
+///
+/// # Errors
+///
+/// [`Rejection`] as of [`frame`].
+pub fn recorded_frame(
+    sent: &v1::MarkerFrame,
+    shape: &StreamShape,
+) -> Result<IncomingFrame, Rejection> {
     let reject = |reason, detail: String| Rejection {
         number: sent.number,
         reason,
@@ -165,9 +182,9 @@ pub fn frame(sent: &v1::MarkerFrame, shape: &StreamShape) -> Result<IncomingFram
             timecode_invalid: sent.timecode.is_some() && timecode.is_none(),
             time_non_monotonic: false,
         },
-        content_hash: content_hash(sent),
+        content_hash: 0,
         n_partial_markers,
-        sent: sent.encode_to_vec().into(),
+        sent: Bytes::new(),
     })
 }
 

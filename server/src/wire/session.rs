@@ -18,7 +18,7 @@ use crate::{
     session::{SessionHandle, SessionSettings},
 };
 
-pub use settings::{apply, check_objective, effective};
+pub use settings::{apply, check_objective, effective, of_effective};
 pub use status::state_name;
 
 /// A request to create a session, checked.

@@ -4,6 +4,7 @@ use frontalis_proto::v1;
 
 use super::{
     actor::timestamp,
+    common::timecode_to_wire,
     invalid::{FieldError, FieldProblem},
 };
 use crate::catalogue::{TakeLabels, TakeRow, TakeState};
@@ -37,11 +38,15 @@ pub fn take(row: &TakeRow) -> v1::Take {
         n_bytes: row.content.n_bytes,
         recovered: row.recovered,
         gesture,
-        start_timecode: None,
+        start_timecode: row.start_timecode.as_ref().map(timecode_to_wire),
         state: state(row.state).into(),
         circled,
         notes,
-        with_images: false,
+        with_images: row.with_images,
+        resolved_from: row
+            .resolved_from
+            .as_ref()
+            .map_or_else(String::new, |it| it.resource()),
     }
 }
 

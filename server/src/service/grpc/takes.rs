@@ -12,7 +12,7 @@ use crate::{
     name::{ActorId, SessionId, TakeId},
     service::{
         access::{Action, Caller},
-        takes::Takes,
+        takes::{ResolveOrder, Takes},
     },
     wire::{
         invalid::{FieldError, FieldProblem},
@@ -171,8 +171,14 @@ impl TakeService for TakesGrpc {
     ) -> Result<Response<Self::ResolveTakeStream>, Status> {
         let caller = Caller::of(request.extensions());
         let name = &request.get_ref().name;
-        self.allowed(&caller, Action::MakeActors, name).await?;
-        Err(not_built("ResolveTake"))
+        let row = self.allowed(&caller, Action::MakeActors, name).await?;
+        let request = request.into_inner();
+        let order = ResolveOrder {
+            from: row,
+            actor_revision: (request.actor_revision != 0).then_some(request.actor_revision),
+            settings: request.settings.unwrap_or_default(),
+        };
+        Ok(Response::new(Box::pin(self.takes.resolve(order)?)))
     }
 }
 

@@ -153,6 +153,15 @@ pub fn effective(settings: &SessionSettings) -> v1::SessionSettings {
     }
 }
 
+/// The settings that [`effective`] wrote down.
+///
+/// # Errors
+///
+/// The first field that none of ours has.
+pub fn of_effective(written: &v1::SessionSettings) -> Result<SessionSettings, FieldError> {
+    apply(written, &[], &SessionSettings::default())
+}
+
 /// Which fields a request changes.
 struct Change<'a> {
     mask: &'a [String],
