@@ -3,6 +3,7 @@
 mod crash;
 mod labels;
 mod recording;
+mod resolve;
 
 use frontalis_proto::v1::{
     ExportTakeRequest, GetTakeRequest, StartTakeRequest, StopTakeRequest, Take,
