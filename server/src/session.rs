@@ -4,6 +4,7 @@
 //! Other layers see [`SessionRegistry`], [`SessionHandle`] and [`Publication`], and read its [`SessionEvent`]s.
 
 mod capture_order;
+mod clock_estimate;
 mod command;
 mod error;
 mod figures;
@@ -15,6 +16,7 @@ mod mailbox;
 mod order;
 mod panic_count;
 mod pipeline;
+mod pre_roll;
 mod publication;
 mod queue;
 mod rate;
@@ -29,9 +31,11 @@ mod tape;
 mod worker;
 
 pub use capture_order::CaptureOrder;
+pub use clock_estimate::{ClockExchange, ClockReport};
 pub use error::SessionError;
 pub use frame::{IncomingFrame, Rejection};
 pub use handle::SessionHandle;
+pub use pre_roll::MAX_BYTES as PRE_ROLL_BYTES;
 pub use publication::{
     Claim, Grant, Granted, Ingest, Offer, Publication, PublishEnd, Wait, Watermarks,
 };

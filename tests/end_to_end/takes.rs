@@ -2,6 +2,7 @@
 
 mod crash;
 mod labels;
+mod options;
 mod recording;
 mod resolve;
 

@@ -1438,7 +1438,8 @@ pub struct SessionSettings {
     /// default 10 s
     #[prost(message, optional, tag = "8")]
     pub publisher_timeout: ::core::option::Option<::pbjson_types::Duration>,
-    /// start a take with the first frame; false
+    /// A run is recorded from its first frame on: the first publisher of the run starts a take, and is refused with the reason
+    /// when it cannot be recorded. A run that has frames already is not; StartTake records it. false
     #[prost(bool, optional, tag = "9")]
     pub record: ::core::option::Option<bool>,
     #[prost(enumeration = "RegionMode", tag = "10")]
@@ -1451,7 +1452,7 @@ pub struct SessionSettings {
     /// align only when Recenter is called, not on the first frames; false
     #[prost(bool, optional, tag = "12")]
     pub align_on_request: ::core::option::Option<bool>,
-    /// the take that `record` starts keeps raw images; false
+    /// the take that `record` starts keeps raw images, of which a session of markers has none; false
     #[prost(bool, optional, tag = "13")]
     pub record_images: ::core::option::Option<bool>,
     /// 0 off .. 1; draws a muscle and its mirror image together, more hides what is one-sided; 0
@@ -4757,6 +4758,7 @@ pub struct Take {
     /// label of a training take; empty: none
     #[prost(string, tag = "14")]
     pub gesture: ::prost::alloc::string::String,
+    /// of the first frame that has one
     #[prost(message, optional, tag = "15")]
     pub start_timecode: ::core::option::Option<Timecode>,
     #[prost(enumeration = "TakeState", tag = "16")]
@@ -4793,7 +4795,7 @@ pub struct StartTakeRequest {
     pub number: u32,
     #[prost(string, tag = "4")]
     pub gesture: ::prost::alloc::string::String,
-    /// keep the raw images too
+    /// keep the raw images too; noted, and without effect, in a session of markers
     #[prost(bool, tag = "5")]
     pub with_images: bool,
     /// So much of what came before, from the frames and samples that the session still holds: those of the last ten

@@ -3,6 +3,7 @@
 //! The figures are upper bounds by purpose: each says what would be held if every limit were reached at once.
 
 use super::{Config, KIB, MIB};
+use crate::session::PRE_ROLL_BYTES;
 
 /// A package of one import is held as uploaded, inflated, and as an actor.
 const IMPORT_COPIES: u64 = 4;
@@ -53,7 +54,8 @@ pub struct MemoryItem {
 pub fn worst_case(config: &Config) -> Vec<MemoryItem> {
     let (limits, transport) = (&config.limits, &config.transport);
     let product = |a: u64, b: u64| a.saturating_mul(b);
-    let per_session = product(limits.waiting_mib.saturating_add(limits.window_mib), MIB);
+    let per_session = product(limits.waiting_mib.saturating_add(limits.window_mib), MIB)
+        .saturating_add(PRE_ROLL_BYTES as u64);
     let sessions =
         product(limits.sessions, per_session).min(product(limits.session_memory_mib, MIB));
     let per_connection = transport

@@ -2,7 +2,7 @@
 
 mod resolve;
 
-use std::{io, path::PathBuf, sync::Arc};
+use std::{io, path::PathBuf, sync::Arc, time::Duration};
 
 use frontalis_proto::v1;
 use futures::Stream;
@@ -23,7 +23,7 @@ use crate::{
         Condition, EndedTake, Recorder, Rewritten, StartError, TakeFileError, TakeUnderWay,
         file_name,
     },
-    wire::{page::Page, session::effective},
+    wire::{page::Page, session::effective, take::NewTake},
 };
 
 pub use resolve::ResolveOrder;
@@ -79,7 +79,7 @@ impl Takes {
     /// # Errors
     ///
     /// `SESSION`, `TAKE_RECORDING`, `DISK_LOW`, or that the storage failed.
-    pub async fn start(&self, session: &SessionId, labels: TakeLabels) -> Result<TakeRow, Status> {
+    pub async fn start(&self, session: &SessionId, new: NewTake) -> Result<TakeRow, Status> {
         let handle = self.registry.get(session)?;
         handle.check_open()?;
         let start_time_nanos = self.unix_now();
@@ -88,7 +88,7 @@ impl Takes {
             session: session.clone(),
             actor: handle.actor_id().clone(),
             actor_revision: handle.actor_revision(),
-            labels,
+            labels: new.labels,
             start_time_nanos,
             stop_time_nanos: None,
             content: TakeContent::default(),
@@ -96,19 +96,27 @@ impl Takes {
             recovered: false,
             resolved_from: None,
             start_timecode: None,
-            with_images: false,
+            with_images: new.with_images,
         };
         let row = self.store.add_take(row).await?;
-        let begun = self.begin(&row, handle).await;
+        let begun = self.begin(&row, handle, new.pre_roll).await;
         if begun.is_err() {
             self.store.forget_take(&row.id).await?;
         }
         begun.map(|()| row)
     }
 
-    async fn begin(&self, row: &TakeRow, handle: SessionHandle) -> Result<(), Status> {
+    async fn begin(
+        &self,
+        row: &TakeRow,
+        handle: SessionHandle,
+        pre_roll: Duration,
+    ) -> Result<(), Status> {
         let header = self.header(row, &handle).await?;
-        let started = self.recorder.start(row.id.clone(), handle, header).await;
+        let started = self
+            .recorder
+            .start(row.id.clone(), handle, header, pre_roll)
+            .await;
         let ended = started.map_err(|error| start_status(&error))?;
         let this = self.clone();
         self.recorder
@@ -139,8 +147,34 @@ impl Takes {
             controls: muscles.map(|it| it.name.clone()).collect(),
             markers: actor.markers().iter().map(|it| it.name.clone()).collect(),
             server_version: env!("CARGO_PKG_VERSION").to_owned(),
+            with_images: row.with_images,
             ..v1::TakeHeader::default()
         })
+    }
+
+    /// Records a session that is to be recorded from its first frame on, when that one is about to come.
+    ///
+    /// # Errors
+    ///
+    /// As of [`Self::start`]: what cannot be recorded is not to be taken either.
+    pub async fn start_with_first_frame(&self, handle: &SessionHandle) -> Result<(), Status> {
+        let settings = handle.settings();
+        if !settings.record || !handle.has_no_frames() || handle.is_recorded() {
+            return Ok(());
+        }
+        let new = NewTake {
+            with_images: settings.record_images,
+            ..NewTake::default()
+        };
+        match self.start(handle.id(), new).await {
+            Ok(row) => {
+                tracing::info!(take = %row.id, session = %row.session, "recorded from its first frame on");
+                Ok(())
+            }
+            // Somebody else started one meanwhile.
+            Err(_) if handle.is_recorded() => Ok(()),
+            Err(refused) => Err(refused),
+        }
     }
 
     /// Waits for the end of a take and writes it into the catalogue.

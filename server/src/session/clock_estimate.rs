@@ -65,8 +65,7 @@ impl ClockReport {
     /// A capture time on the server's clock.
     #[expect(
         clippy::cast_possible_truncation,
-        clippy::cast_precision_loss,
-        reason = "a correction of a thousandth of a span; both casts saturate"
+        reason = "a thousandth of a span, and it saturates"
     )]
     pub fn on_server_clock(&self, capture_time_nanos: i64) -> i64 {
         let moved = capture_time_nanos.saturating_add(self.offset_nanos);
@@ -157,10 +156,13 @@ impl ClockEstimate {
             return;
         }
         let middle = first + (last - first) / 2;
-        let n_older = self.exchanges.partition_point(|it| it.server_receive < middle);
-        let base = self.exchanges.back().map_or(0, |it| {
-            it.server_send.saturating_sub(it.client_receive)
-        });
+        let n_older = self
+            .exchanges
+            .partition_point(|it| it.server_receive < middle);
+        let base = self
+            .exchanges
+            .back()
+            .map_or(0, |it| it.server_send.saturating_sub(it.client_receive));
         // The middles of the halves.
         let (t_older, t_newer) = (first + (middle - first) / 2, middle + (last - middle) / 2);
         for _ in 0..DRIFT_ROUNDS {
@@ -224,19 +226,11 @@ impl Corridor {
 }
 
 /// a − b − base, nanoseconds.
-#[expect(
-    clippy::cast_precision_loss,
-    reason = "offsets less one of them: hours are far below 2^53 nanoseconds"
-)]
 fn difference(a: i64, b: i64, base: i64) -> f64 {
     a.saturating_sub(b).saturating_sub(base) as f64
 }
 
 /// From `from` to `to`, nanoseconds.
-#[expect(
-    clippy::cast_precision_loss,
-    reason = "a minute is far below 2^53 nanoseconds"
-)]
 fn span(from: i64, to: i64) -> f64 {
     to.saturating_sub(from) as f64
 }

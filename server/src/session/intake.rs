@@ -11,11 +11,13 @@ use std::{
 
 use super::{
     capture_order::CaptureOrder,
+    clock_estimate::{ClockEstimate, ClockExchange},
     command::{Command, Source},
     error::SessionError,
     frame::{IncomingFrame, Rejection},
     mailbox::Mailbox,
     order::{FrameOrder, Verdict},
+    pre_roll::PreRoll,
     publication::{Claim, Grant, Ingest, Offer, PublishEnd, Wait},
     queue::{MAX_WAITING_COMMANDS, WaitingFrame, Work, WorkQueue},
     rate::{Admission, RateLimit, RateMeter},
@@ -121,6 +123,7 @@ pub(super) struct Intake {
     counts: IntakeCounts,
     closed: Option<Closed>,
     tape: Tape,
+    clock: ClockEstimate,
     /// Of whoever published last.
     last_mailbox: Weak<Mailbox>,
     pub(super) publisher_timeout: Duration,
@@ -128,6 +131,7 @@ pub(super) struct Intake {
 
 impl Intake {
     pub(super) fn new(limits: IntakeLimits, publisher_timeout: Duration, now_nanos: i64) -> Self {
+        let pre_roll = PreRoll::new(nanos(limits.resend_span), limits.budget.clone());
         Self {
             lease: None,
             newest_epoch: 0,
@@ -139,22 +143,29 @@ impl Intake {
             meter: RateMeter::default(),
             counts: IntakeCounts::default(),
             closed: None,
-            tape: Tape::default(),
+            tape: Tape::new(pre_roll),
+            clock: ClockEstimate::default(),
             last_mailbox: Weak::new(),
             publisher_timeout,
         }
     }
 
-    /// Hands on all that comes in from now on; an earlier recording ends.
-    pub(super) fn record(&mut self) -> Result<RecordingFeed, SessionError> {
+    /// Hands on all that comes in from now on, after what came since `pre_roll_since_nanos`; an earlier recording ends.
+    pub(super) fn record(
+        &mut self,
+        pre_roll_since_nanos: Option<i64>,
+    ) -> Result<RecordingFeed, SessionError> {
         self.check_open()?;
         self.check_room_for_a_command()?;
         let next_frame = self.order.next_expected().max(1);
         let last_capture_nanos = self.capture_order.last_nanos();
         let accepted_through = self.accepted_through();
-        let (tap, feed) = self
-            .tape
-            .start(next_frame, accepted_through, last_capture_nanos);
+        let (tap, feed) = self.tape.start(
+            next_frame,
+            accepted_through,
+            last_capture_nanos,
+            pre_roll_since_nanos,
+        );
         self.queue.push_command(Command::Record(tap));
         Ok(feed)
     }
@@ -242,6 +253,7 @@ impl Intake {
         self.newest_epoch = grant.epoch;
         let owner = Owner::of(&grant.claim);
         let is_other = self.note_owner(&owner);
+        self.clock = ClockEstimate::default();
         let mailbox = Arc::new(Mailbox::new(grant.epoch));
         self.last_mailbox = Arc::downgrade(&mailbox);
         self.lease = Some(Lease {
@@ -384,6 +396,9 @@ impl Intake {
         self.counts.received += 1;
         self.counts.partial_markers += frame.n_partial_markers as u64;
         self.meter.count(now_nanos);
+        let clock = self.clock.report();
+        frame.tag.capture_time_server_nanos =
+            clock.map(|it| it.on_server_clock(frame.capture_time_nanos));
         frame.tag.time_non_monotonic = self.capture_order.is_broken_by(frame.capture_time_nanos);
         if let Some(lease) = &mut self.lease {
             lease.n_rejects_in_a_row = 0;
@@ -418,6 +433,19 @@ impl Intake {
             return Err(ended(mailbox));
         }
         Ok(Offer::Rejected(rejection))
+    }
+
+    /// Takes in an exchange with the publisher's clock.
+    pub(super) fn exchange(
+        &mut self,
+        mailbox: &Mailbox,
+        exchange: ClockExchange,
+    ) -> Result<(), PublishEnd> {
+        self.check_lease(mailbox)?;
+        if let Some(report) = self.clock.add(exchange) {
+            self.tape.clock(report);
+        }
+        Ok(())
     }
 
     /// Lets the lease live on.
@@ -547,6 +575,7 @@ impl Intake {
         status.frames_shed = counts.shed;
         status.frames_missing = counts.missing;
         status.markers_partial = counts.partial_markers;
+        status.clock = self.clock.report();
         status.publisher = self.lease.as_ref().map(|it| it.owner.publisher.to_string());
         if let Some(Closed::Failed { reason }) = &self.closed {
             status.failure = Some(reason.clone());

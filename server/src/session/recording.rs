@@ -11,6 +11,7 @@ use frontalis_analysis::{
 use tokio::sync::mpsc;
 
 use super::{
+    clock_estimate::ClockReport,
     settings::{SessionSettings, StreamShape},
     starting_point::StartingPoint,
 };
@@ -39,6 +40,8 @@ pub enum Recorded {
     /// What the first frame of the recording is solved from. It comes when the session's task has done all that waited
     /// before, so that frames may come first.
     StartingPoint(Box<StartingPoint>),
+    /// The publisher's clock stands so from now on.
+    Clock(ClockReport),
     /// Another neutral face was asked for.
     Recenter(NeutralSource),
     /// The neutral face is known.
@@ -94,6 +97,8 @@ pub struct RecordingFeed {
     pub next_frame: u64,
     /// Capture time of the frame before, where the next one's can be compared with it.
     pub last_capture_nanos: Option<i64>,
+    /// Frames that came before, as far as they were asked for and are still there.
+    pub pre_roll: Vec<RecordedFrame>,
     pub(super) received: mpsc::Receiver<Recorded>,
 }
 
@@ -106,6 +111,7 @@ pub(super) fn recording(
     let feed = RecordingFeed {
         next_frame,
         last_capture_nanos,
+        pre_roll: Vec::new(),
         received,
     };
     (RecordingTap(sender), feed)
@@ -126,6 +132,12 @@ impl RecordingTap {
 }
 
 impl RecordingFeed {
+    /// First frame number of the recording, the pre-roll included.
+    pub fn first_frame(&self) -> u64 {
+        let first = self.pre_roll.first();
+        first.map_or(self.next_frame, |it| it.number)
+    }
+
     /// The next thing that came in; `None` when the recording is over. May be dropped while it waits.
     pub async fn next(&mut self) -> Option<Recorded> {
         self.received.recv().await

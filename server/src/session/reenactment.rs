@@ -12,6 +12,7 @@ use frontalis_analysis::{
 
 use super::{
     capture_order::CaptureOrder,
+    clock_estimate::ClockReport,
     frame::IncomingFrame,
     pipeline::{Outcome, Pipeline, Step},
     queue::WaitingFrame,
@@ -26,6 +27,7 @@ pub struct Reenactment {
     settings: SessionSettings,
     actor_revision: u32,
     capture_order: CaptureOrder,
+    clock: Option<ClockReport>,
     outcomes: Vec<Outcome>,
     is_newly_aligned: bool,
 }
@@ -47,6 +49,7 @@ impl Reenactment {
             actor_revision: point.actor_revision,
             pipeline: Pipeline::restore(actor, point)?,
             capture_order: CaptureOrder::after(last_capture_nanos),
+            clock: None,
             outcomes: Vec::new(),
             is_newly_aligned: false,
         })
@@ -63,6 +66,7 @@ impl Reenactment {
         if is_other {
             self.capture_order.another_clock();
         }
+        self.clock = None;
         let _is_lost = self.pipeline.read_from(shape, rate_hz, &mut self.outcomes);
     }
 
@@ -91,8 +95,16 @@ impl Reenactment {
         self.pipeline.pass_gaps(gaps, &mut self.outcomes);
     }
 
-    /// A frame that was taken, in time for the analysis or shed.
+    /// The publisher's clock stood so from here on.
+    pub fn clock(&mut self, report: ClockReport) {
+        self.clock = Some(report);
+    }
+
+    /// A frame that was taken, to be solved or shed: says of its time what was said of it then.
     pub fn pass_time(&mut self, frame: &mut IncomingFrame) {
+        let clock = self.clock;
+        frame.tag.capture_time_server_nanos =
+            clock.map(|it| it.on_server_clock(frame.capture_time_nanos));
         frame.tag.time_non_monotonic = self.capture_order.is_broken_by(frame.capture_time_nanos);
     }
 

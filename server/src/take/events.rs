@@ -7,13 +7,13 @@ use crate::{
     session::Recorded,
     wire::{
         analysis_state::{self, alignment_to_wire},
-        common,
+        capture, common,
         session::effective,
     },
 };
 
 /// What came in, unless it is a frame.
-pub(super) fn recorded(recorded: &Recorded) -> Option<Event> {
+pub(super) fn recorded(recorded: &Recorded, unix_offset_nanos: i64) -> Option<Event> {
     match recorded {
         Recorded::Frame(_) => None,
         Recorded::Source(source) => Some(Event::Source(v1::TakeSource {
@@ -44,6 +44,11 @@ pub(super) fn recorded(recorded: &Recorded) -> Option<Event> {
             shape,
             *actor_revision,
         ))),
+        Recorded::Clock(report) => Some(Event::Clock(v1::TakeClock {
+            clock: Some(capture::clock_report(report)),
+            server_time_nanos: report.server_time_nanos,
+            unix_offset_nanos,
+        })),
         Recorded::StartingPoint(point) => {
             Some(Event::AnalysisState(analysis_state::to_wire(point)))
         }

@@ -321,7 +321,7 @@ impl Resolve {
             match item {
                 Item::Frame(frame) => self.frame(*frame)?,
                 Item::Event { time_nanos, event } => {
-                    if let Some(revision) = self.event(time_nanos, event)? {
+                    if let Some(revision) = self.event(time_nanos, *event)? {
                         return Ok((Some(self), Advance::NeedsActor { revision }));
                     }
                 }
@@ -387,6 +387,12 @@ impl Resolve {
             Event::Recenter(recenter) => {
                 self.reenactment.recenter(neutral_source(recenter.source)?);
                 self.new.add_event(Event::Recenter(recenter))?;
+            }
+            Event::Clock(clock) => {
+                if let Some(report) = capture::recorded_clock(&clock) {
+                    self.reenactment.clock(report);
+                }
+                self.new.add_event(Event::Clock(clock))?;
             }
             Event::Stop(stop) => self.stop_time = stop.stop_time,
             other => self.new.add_event(other)?,

@@ -44,7 +44,11 @@ async fn resolve(
     Ok(all)
 }
 
-async fn resolved(server: &TestServer, take: &Take, settings: Option<SessionSettings>) -> Take {
+pub(super) async fn resolved(
+    server: &TestServer,
+    take: &Take,
+    settings: Option<SessionSettings>,
+) -> Take {
     let request = ResolveTakeRequest {
         name: take.name.clone(),
         settings,
@@ -318,7 +322,7 @@ async fn other_settings_hold_throughout() {
     server.stop().await;
 }
 
-async fn listed(server: &TestServer) -> Vec<Take> {
+pub(super) async fn listed(server: &TestServer) -> Vec<Take> {
     let mut client = server.takes().await;
     let answer = client.list_takes(ListTakesRequest::default()).await;
     answer.unwrap().into_inner().takes

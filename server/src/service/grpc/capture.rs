@@ -22,6 +22,7 @@ use crate::{
         audit::Audit,
         peer::Peer,
         sessions::in_process,
+        takes::Takes,
     },
     session::{
         Claim, Grant, Granted, IncomingFrame, Offer, Publication, PublishEnd, SessionRegistry, Wait,
@@ -43,16 +44,25 @@ pub struct CaptureGrpc {
     store: Store,
     clock: ServerClock,
     audit: Audit,
+    takes: Takes,
 }
 
 impl CaptureGrpc {
     /// Publishes into the sessions of `registry`; epochs are made durable in `store` before they are granted.
-    pub fn new(registry: SessionRegistry, store: Store, clock: ServerClock, audit: Audit) -> Self {
+    /// Sessions that are to be recorded from their first frame on become `takes`.
+    pub fn new(
+        registry: SessionRegistry,
+        store: Store,
+        clock: ServerClock,
+        audit: Audit,
+        takes: Takes,
+    ) -> Self {
         Self {
             registry,
             store,
             clock,
             audit,
+            takes,
         }
     }
 
@@ -123,6 +133,7 @@ impl CaptureGrpc {
         } else {
             claimed?;
         }
+        self.takes.start_with_first_frame(&session).await?;
         let epoch = self.store.next_epoch(&start.session).await?;
         let (publisher, takeover) = (start.publisher, start.takeover);
         let publication = session.grant(Grant {
@@ -412,6 +423,10 @@ impl Flow {
         if request.start.is_some() {
             self.publication.release();
             return Err(protocol_order("start was sent twice"));
+        }
+        if let Some(echo) = &request.clock {
+            let exchange = wire::clock_exchange(echo, self.clock.now_nanos());
+            self.publication.exchange(exchange)?;
         }
         self.take_frames(request.frames)
     }

@@ -1,6 +1,7 @@
 //! A capture stage for tests: one session of the reference face in memory, publishers and renderers without sockets.
 
 use std::{
+    path::PathBuf,
     sync::Arc,
     time::{Duration, SystemTime},
 };
@@ -24,9 +25,9 @@ use crate::{
     catalogue::{Catalogue, Layout, NewRevision, NewSession, Store, StoredSettings},
     clock::ServerClock,
     executor::Workers,
-    fs::MemFs,
+    fs::{Fs as _, MemFs},
     name::{ActorId, SessionId},
-    service::{access::Caller, audit::Audit, peer::Peer, sessions::Sessions},
+    service::{access::Caller, audit::Audit, peer::Peer, sessions::Sessions, takes::Takes},
     session::{
         RestoredAlignment, SessionEvent, SessionHandle, SessionLimits, SessionRegistry,
         SessionSettings, SessionSpec,
@@ -88,8 +89,11 @@ impl Stage {
                 restored,
             })
             .unwrap();
+        let (fs, dir) = (Arc::new(MemFs::default()), PathBuf::from("/takes"));
+        fs.create_dir_all(&dir).unwrap();
+        let takes = Takes::new(store.clone(), registry.clone(), clock, fs, dir);
         Self {
-            capture: CaptureGrpc::new(registry.clone(), store.clone(), clock, Audit::none()),
+            capture: CaptureGrpc::new(registry.clone(), store.clone(), clock, Audit::none(), takes),
             curves: CurvesGrpc::new(registry.clone(), store.clone(), clock),
             sessions: Sessions::new(store.clone(), registry.clone(), clock, 4),
             store,
@@ -234,6 +238,8 @@ async fn store(actor: &Actor) -> Store {
             marker: settings().marker,
             stale_after: None,
             publisher_timeout: Duration::from_secs(10),
+            record: false,
+            record_images: false,
         },
     };
     store.create_session(session, 0).await.unwrap();

@@ -65,7 +65,10 @@ impl TakeService for TakesGrpc {
         let session =
             SessionId::from_resource(&request.session).map_err(FieldError::name("session"))?;
         caller.may_in(Action::Record, &session)?;
-        let row = self.takes.start(&session, wire::labels(&request)?).await?;
+        let row = self
+            .takes
+            .start(&session, wire::new_take(&request)?)
+            .await?;
         Ok(Response::new(v1::StartTakeResponse {
             take: Some(wire::take(&row)),
         }))

@@ -67,7 +67,10 @@ fn largest_error(clock: CaptureClock, seed: u64) -> i64 {
             let error = report.on_server_clock(clock.at(now)) - now;
             largest = largest.max(error.abs());
         }
-        assert!((report.drift_ppm - clock.drift_ppm).abs() < 60.0, "{report:?}");
+        assert!(
+            (report.drift_ppm - clock.drift_ppm).abs() < 60.0,
+            "{report:?}"
+        );
     }
     assert!(n_reports > 15);
     largest
@@ -105,7 +108,10 @@ fn eight_exchanges_make_a_report_and_every_five_seconds_make_another() {
         })
         .collect();
     assert_eq!(told.first(), Some(&7));
-    assert!(told.windows(2).all(|it| (49..=52).contains(&(it[1] - it[0]))));
+    assert!(
+        told.windows(2)
+            .all(|it| (49..=52).contains(&(it[1] - it[0])))
+    );
     let report = estimate.report().unwrap();
     assert!(report.round_trip_nanos < 20_000_000);
     assert!(report.uncertainty_nanos < 10_000_000);

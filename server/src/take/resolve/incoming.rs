@@ -34,7 +34,7 @@ pub(super) enum Item {
     Event {
         /// Unix time at which it was recorded.
         time_nanos: u64,
-        event: Event,
+        event: Box<Event>,
     },
 }
 
@@ -117,16 +117,14 @@ impl Incoming {
 
     fn read(&mut self) -> Result<(), TakeFileError> {
         match self.reader.next_batch()? {
-            Some(batch) => batch.into_iter().try_for_each(|it| self.add(it)),
-            None => {
-                self.is_over = true;
-                Ok(())
-            }
+            Some(batch) => batch.into_iter().for_each(|it| self.add(it)),
+            None => self.is_over = true,
         }
+        Ok(())
     }
 
     /// A message that cannot be read is passed over: its checksum was right, so a later version wrote it.
-    fn add(&mut self, record: TakeRecord) -> Result<(), TakeFileError> {
+    fn add(&mut self, record: TakeRecord) {
         let TakeRecord {
             channel,
             time_nanos,
@@ -156,7 +154,6 @@ impl Incoming {
                 }
             }
         }
-        Ok(())
     }
 
     fn add_event(&mut self, time_nanos: u64, event: Event) {
@@ -173,7 +170,10 @@ impl Incoming {
             }
             // Made anew.
             Event::State(_) | Event::Alignment(_) => {}
-            event => self.waiting.push_back(Item::Event { time_nanos, event }),
+            event => self.waiting.push_back(Item::Event {
+                time_nanos,
+                event: Box::new(event),
+            }),
         }
     }
 }
