@@ -14,6 +14,7 @@ mod sessions;
 mod settings;
 mod store;
 mod takes;
+mod timecode;
 
 use std::{
     io,

@@ -180,7 +180,7 @@ pub async fn run_on(
             store.clone(),
             clock,
             audit.clone(),
-            takes.recorder().clone(),
+            takes.clone(),
         ),
         curves: CurvesGrpc::new(registry.clone(), store.clone(), clock, takes.replays()),
         takes: TakesGrpc::new(takes.clone()),

@@ -3,9 +3,11 @@
 mod copied;
 mod crash;
 mod labels;
+mod options;
 mod play;
 mod recording;
 mod replay;
+mod resolve;
 mod resumed;
 
 use frontalis_proto::v1::{

@@ -1,6 +1,7 @@
 //! `frontalis take …`: record sessions, and what becomes of the recordings.
 
 mod play;
+mod resolve;
 
 use std::{
     io::Write as _,
@@ -15,6 +16,7 @@ use frontalis_proto::FieldMask;
 use proto::take_service_client::TakeServiceClient;
 
 use self::play::PlayArgs;
+use self::resolve::ResolveArgs;
 use super::{
     Context, actor_name,
     names::{session_name, take_name},
@@ -40,13 +42,16 @@ pub enum TakeCommand {
     Export(ExportArgs),
     /// Publish a take again, in time, into a session
     Play(PlayArgs),
+    /// Solve a take again into a new one, with another revision of the actor or other settings
+    Resolve(ResolveArgs),
     /// Erase a take; nothing of it stays on the server's disk, and it cannot be brought back
     Delete(DeleteArgs),
 }
 
 #[derive(Debug, Args)]
 #[command(after_help = "Example:
-  frontalis take start stage-1 --slate 12A   the next take of slate 12A")]
+  frontalis take start stage-1 --slate 12A                  the next take of slate 12A
+  frontalis take start stage-1 --pre-roll 5 --gesture smile  with the five seconds before")]
 pub struct StartArgs {
     /// The session to be recorded
     session: String,
@@ -59,6 +64,12 @@ pub struct StartArgs {
     /// What a training take shows
     #[arg(long, value_name = "LABEL", default_value = "")]
     gesture: String,
+    /// So many seconds of what came before, from 0 to 10: frames and curves that the session still holds
+    #[arg(long, value_name = "SECS", default_value_t = 0.0)]
+    pre_roll: f64,
+    /// Keep raw images too, which a session of markers has none of
+    #[arg(long)]
+    with_images: bool,
 }
 
 #[derive(Debug, Args)]
@@ -157,6 +168,7 @@ pub async fn run(context: &Context, command: TakeCommand) -> anyhow::Result<Exit
         TakeCommand::Start(args) => start(&mut client, args).await,
         TakeCommand::Stop(args) => stop(&mut client, &args).await,
         TakeCommand::Show(args) => show(&mut client, &args).await,
+        TakeCommand::Resolve(args) => resolve::run(&mut client, &args).await,
         TakeCommand::Label(args) => label(&mut client, args).await,
     };
     let take = take.context(what)?.unwrap_or_default();
@@ -179,6 +191,7 @@ impl TakeCommand {
             Self::Label(args) => format!("cannot change take {}", args.id),
             Self::Export(args) => format!("cannot save take {}", args.id),
             Self::Play(args) => format!("cannot play {}", args.take()),
+            Self::Resolve(args) => format!("cannot solve take {} again", args.id),
             Self::Delete(args) => format!("cannot erase take {}", args.id),
         }
     }
@@ -190,9 +203,26 @@ async fn start(client: &mut Client, args: StartArgs) -> Result<Option<proto::Tak
         slate: args.slate,
         number: args.number.unwrap_or_default(),
         gesture: args.gesture,
-        ..proto::StartTakeRequest::default()
+        with_images: args.with_images,
+        pre_roll: (args.pre_roll > 0.0).then(|| seconds(args.pre_roll)),
     };
+    if args.with_images {
+        eprintln!(
+            "note: a session of markers has no images: --with-images is noted and has no effect"
+        );
+    }
     Ok(client.start_take(request).await?.into_inner().take)
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "the server takes 0 to 10 s and refuses what saturates"
+)]
+fn seconds(secs: f64) -> pbjson_types::Duration {
+    pbjson_types::Duration {
+        seconds: secs.trunc() as i64,
+        nanos: (secs.fract() * 1e9).round() as i32,
+    }
 }
 
 async fn stop(client: &mut Client, args: &IdArgs) -> Result<Option<proto::Take>, ClientError> {

@@ -7,7 +7,7 @@ use rusqlite::{Connection, TransactionBehavior};
 use super::CatalogueError;
 
 /// Step `i` leads from version `i` to version `i + 1`.
-const STEPS: &[&str] = &[V1, V2];
+const STEPS: &[&str] = &[V1, V2, V3];
 
 /// `counters` holds what must not repeat when rows are gone: the highest run and epoch of any collected session, and
 /// the number of the last package file.
@@ -77,6 +77,13 @@ CREATE INDEX takes_by_slate ON takes (slate);
 CREATE TABLE doomed_takes (
     id TEXT PRIMARY KEY
 ) STRICT;
+";
+
+/// Where takes come from, and where on the stage's clock they begin.
+const V3: &str = "
+ALTER TABLE takes ADD COLUMN resolved_from  TEXT;
+ALTER TABLE takes ADD COLUMN start_timecode TEXT;
+ALTER TABLE takes ADD COLUMN with_images    INTEGER NOT NULL DEFAULT 0;
 ";
 
 /// Sets the connection up and brings the schema to the newest version.

@@ -1,18 +1,21 @@
 //! Takes as every door sees them: what is being recorded joined with what the catalogue keeps.
 
-use std::{io, path::PathBuf, sync::Arc};
+mod resolve;
+
+use std::{io, path::PathBuf, sync::Arc, time::Duration};
 
 use frontalis_proto::v1;
 use futures::Stream;
 use sha2::{Digest as _, Sha256};
-use tokio::sync::watch;
+use tokio::sync::{Semaphore, watch};
 use tonic::Status;
 
 use super::{grpc::status::refuse, replay::Replays};
 use crate::{
     catalogue::{CatalogueError, Store, TakeContent, TakeFilter, TakeLabels, TakeRow, TakeState},
     clock::ServerClock,
-    executor::Threads,
+    config::RESOLVES,
+    executor::{Threads, Workers},
     fs::{Fs, TEMPORARY_SUFFIX},
     name::{SessionId, TakeId},
     session::{SessionHandle, SessionRegistry},
@@ -20,8 +23,10 @@ use crate::{
         Condition, EndedTake, Recorder, Rewritten, StartError, TakeFileError, TakeUnderWay,
         file_name,
     },
-    wire::{page::Page, session::effective},
+    wire::{page::Page, session::effective, take::NewTake},
 };
+
+pub use resolve::ResolveOrder;
 
 /// Bytes of a take's file in one message.
 const PIECE_BYTES: usize = 64 * 1024;
@@ -38,6 +43,9 @@ pub struct Takes {
     clock: ServerClock,
     fs: Arc<dyn Fs>,
     dir: PathBuf,
+    /// One permit a re-solve.
+    resolves: Arc<Semaphore>,
+    resolvers: Workers,
 }
 
 impl Takes {
@@ -62,6 +70,8 @@ impl Takes {
             clock,
             fs,
             dir,
+            resolves: Arc::new(Semaphore::new(RESOLVES)),
+            resolvers: threads.workers(RESOLVES),
         })
     }
 
@@ -85,7 +95,7 @@ impl Takes {
     /// # Errors
     ///
     /// `SESSION`, `TAKE_RECORDING`, `DISK_LOW`, or that the storage failed.
-    pub async fn start(&self, session: &SessionId, labels: TakeLabels) -> Result<TakeRow, Status> {
+    pub async fn start(&self, session: &SessionId, new: NewTake) -> Result<TakeRow, Status> {
         let handle = self.registry.get(session)?;
         handle.check_open()?;
         let start_time_nanos = self.unix_now();
@@ -94,24 +104,35 @@ impl Takes {
             session: session.clone(),
             actor: handle.actor_id().clone(),
             actor_revision: handle.actor_revision(),
-            labels,
+            labels: new.labels,
             start_time_nanos,
             stop_time_nanos: None,
             content: TakeContent::default(),
             state: TakeState::Recording,
             recovered: false,
+            resolved_from: None,
+            start_timecode: None,
+            with_images: new.with_images,
         };
         let row = self.store.add_take(row).await?;
-        let begun = self.begin(&row, handle).await;
+        let begun = self.begin(&row, handle, new.pre_roll).await;
         if begun.is_err() {
             self.store.forget_take(&row.id).await?;
         }
         begun.map(|()| row)
     }
 
-    async fn begin(&self, row: &TakeRow, handle: SessionHandle) -> Result<(), Status> {
+    async fn begin(
+        &self,
+        row: &TakeRow,
+        handle: SessionHandle,
+        pre_roll: Duration,
+    ) -> Result<(), Status> {
         let header = self.header(row, &handle).await?;
-        let started = self.recorder.start(row.id.clone(), handle, header).await;
+        let started = self
+            .recorder
+            .start(row.id.clone(), handle, header, pre_roll)
+            .await;
         let ended = started.map_err(|error| start_status(&error))?;
         let this = self.clone();
         self.recorder
@@ -141,10 +162,35 @@ impl Takes {
             start_time: Some(crate::wire::actor::timestamp(row.start_time_nanos)),
             controls: muscles.map(|it| it.name.clone()).collect(),
             markers: actor.markers().iter().map(|it| it.name.clone()).collect(),
-            next_sequence: 0,
             server_version: env!("CARGO_PKG_VERSION").to_owned(),
-            next_frame: 0,
+            with_images: row.with_images,
+            ..v1::TakeHeader::default()
         })
+    }
+
+    /// Records a session that is to be recorded from its first frame on, when that one is about to come.
+    ///
+    /// # Errors
+    ///
+    /// As of [`Self::start`]: what cannot be recorded is not to be taken either.
+    pub async fn start_with_first_frame(&self, handle: &SessionHandle) -> Result<(), Status> {
+        let settings = handle.settings();
+        if !settings.record || !handle.has_no_frames() || handle.is_recorded() {
+            return Ok(());
+        }
+        let new = NewTake {
+            with_images: settings.record_images,
+            ..NewTake::default()
+        };
+        match self.start(handle.id(), new).await {
+            Ok(row) => {
+                tracing::info!(take = %row.id, session = %row.session, "recorded from its first frame on");
+                Ok(())
+            }
+            // Somebody else started one meanwhile.
+            Err(_) if handle.is_recorded() => Ok(()),
+            Err(refused) => Err(refused),
+        }
     }
 
     /// Waits for the end of a take and writes it into the catalogue.
@@ -176,6 +222,7 @@ impl Takes {
                 n_bytes: ended.n_bytes,
             },
             state,
+            start_timecode: ended.figures.start_timecode,
             ..row
         };
         self.store.end_take(ended).await
@@ -216,7 +263,11 @@ impl Takes {
             n_frames: figures.n_frames,
             n_bytes,
         };
-        TakeRow { content, ..row }
+        TakeRow {
+            content,
+            start_timecode: figures.start_timecode,
+            ..row
+        }
     }
 
     /// A page of the takes that are seen.
@@ -355,6 +406,7 @@ impl Takes {
                         n_bytes: it.n_bytes,
                     },
                     state: TakeState::Closed,
+                    start_timecode: it.figures.start_timecode,
                     recovered: true,
                     ..row
                 }

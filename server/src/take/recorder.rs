@@ -169,7 +169,7 @@ impl Recorder {
         }
     }
 
-    /// Starts to record `session` as take `id`; `header` says what is not the session's to say. What the session acknowledges
+    /// Starts to record `session` as take `id`, from `pre_roll` before now on as far as it is kept; `header` says what is not the session's to say. What the session acknowledges
     /// after this returned is in the take. What is returned tells when it is over and on stable storage.
     ///
     /// # Errors
@@ -180,6 +180,7 @@ impl Recorder {
         id: TakeId,
         session: SessionHandle,
         header: v1::TakeHeader,
+        pre_roll: Duration,
     ) -> Result<watch::Receiver<Option<EndedTake>>, StartError> {
         self.check_disk().await?;
         if let Some(other) = self.take_of(session.id()) {
@@ -194,7 +195,7 @@ impl Recorder {
             &inner.flushes,
         );
         let take = Arc::new(take.await?);
-        let started = self.start_scribe(&take, header);
+        let started = self.start_scribe(&take, header, pre_roll);
         if started.is_err() {
             take.close().await;
             inner.fs.remove(&inner.dir.join(file_name(&id)))?;
@@ -206,6 +207,7 @@ impl Recorder {
         &self,
         take: &Arc<OpenTake>,
         header: v1::TakeHeader,
+        pre_roll: Duration,
     ) -> Result<watch::Receiver<Option<EndedTake>>, StartError> {
         let inner = &self.inner;
         let session = &take.session;
@@ -221,14 +223,21 @@ impl Recorder {
         let samples = session.hub().subscribe(SubscribeSpec {
             name: take.id.resource(),
             protocol: "take",
-            delivery: Delivery::EveryFrame(StartAt::Sequence(next_sequence)),
+            delivery: Delivery::EveryFrame(if pre_roll.is_zero() {
+                StartAt::Sequence(next_sequence)
+            } else {
+                // Samples of frames that are not in the take are passed over.
+                StartAt::Oldest
+            }),
             run: None,
         })?;
-        let feed = session.record()?;
+        let feed = session.record(pre_roll)?;
         let now = unix_nanos(&inner.clock, inner.clock.now_nanos());
         let header = v1::TakeHeader {
             next_sequence,
             next_frame: feed.next_frame,
+            last_capture_time_nanos: feed.last_capture_nanos,
+            pre_roll_from: feed.pre_roll.first().map_or(0, |it| it.number),
             ..header
         };
         take.add_event(Event::Header(header), now);
@@ -241,6 +250,7 @@ impl Recorder {
         drop(takes);
         let mut scribe = Scribe {
             take: Arc::clone(take),
+            first_frame: feed.first_frame(),
             feed,
             samples,
             clock: inner.clock,

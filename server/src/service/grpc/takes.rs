@@ -12,7 +12,7 @@ use crate::{
     name::{ActorId, SessionId, TakeId},
     service::{
         access::{Action, Caller},
-        takes::Takes,
+        takes::{ResolveOrder, Takes},
     },
     wire::{
         invalid::{FieldError, FieldProblem},
@@ -65,7 +65,10 @@ impl TakeService for TakesGrpc {
         let session =
             SessionId::from_resource(&request.session).map_err(FieldError::name("session"))?;
         caller.may_in(Action::Record, &session)?;
-        let row = self.takes.start(&session, wire::labels(&request)?).await?;
+        let row = self
+            .takes
+            .start(&session, wire::new_take(&request)?)
+            .await?;
         Ok(Response::new(v1::StartTakeResponse {
             take: Some(wire::take(&row)),
         }))
@@ -171,8 +174,14 @@ impl TakeService for TakesGrpc {
     ) -> Result<Response<Self::ResolveTakeStream>, Status> {
         let caller = Caller::of(request.extensions());
         let name = &request.get_ref().name;
-        self.allowed(&caller, Action::MakeActors, name).await?;
-        Err(not_built("ResolveTake"))
+        let row = self.allowed(&caller, Action::MakeActors, name).await?;
+        let request = request.into_inner();
+        let order = ResolveOrder {
+            from: row,
+            actor_revision: (request.actor_revision != 0).then_some(request.actor_revision),
+            settings: request.settings.unwrap_or_default(),
+        };
+        Ok(Response::new(Box::pin(self.takes.resolve(order)?)))
     }
 }
 
