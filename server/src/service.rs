@@ -14,4 +14,5 @@ pub mod panics;
 pub mod peer;
 pub mod replay;
 pub mod sessions;
+pub mod take_exports;
 pub mod takes;

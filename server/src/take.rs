@@ -6,6 +6,7 @@
 mod channel;
 mod chunk;
 mod events;
+mod export;
 mod figures;
 mod final_form;
 mod finished;
@@ -20,8 +21,10 @@ mod rewrite;
 mod samples;
 mod scan;
 mod scribe;
+mod stored;
 
 pub use channel::Channel;
+pub use export::{Export, ExportError, ExportSource, Step};
 pub use figures::TakeFigures;
 pub use frame_lookup::FrameLookup;
 pub use growth::Growth;
@@ -32,3 +35,4 @@ pub use resolve::{Advance, Resolve, ResolveError, ResolveTarget, Resolved, TakeT
 pub use rewrite::{Rewritten, TakeFileError};
 pub use samples::{SampleReader, SampleSpan, StoredEntry};
 pub use scan::ScanError;
+pub use stored::{StoredFile, open_stored};

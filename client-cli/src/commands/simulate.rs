@@ -12,14 +12,16 @@ use anyhow::Context as _;
 use clap::Args;
 use frontalis_analysis::{
     face::actor::{Actor, RankPolicy},
-    format::trc::{self, TrcFrame, TrcTake},
+    format::{
+        curve_csv::field,
+        trc::{self, TrcFrame, TrcTake},
+    },
     space::LengthUnit,
     synthesis::reference_face,
 };
 use frontalis_client::{
     capture_client::{CaptureClient, CaptureSettings},
     connection::Channel,
-    csv::field,
     simulated_stage::{SimulatedStage, StageFrame, StageSettings},
 };
 
@@ -213,6 +215,7 @@ impl Recording {
                 unit: LengthUnit::Centimeter,
                 marker_names: actor.markers().iter().map(|it| it.name.clone()).collect(),
                 frames: self.frames,
+                start_timecode: None,
             };
             let name = path.file_name().unwrap_or_default().to_string_lossy();
             std::fs::write(path, trc::write(&take, &name))

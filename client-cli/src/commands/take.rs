@@ -1,13 +1,10 @@
 //! `frontalis take …`: record sessions, and what becomes of the recordings.
 
+mod export;
 mod play;
 mod resolve;
 
-use std::{
-    io::Write as _,
-    path::{Path, PathBuf},
-    process::ExitCode,
-};
+use std::process::ExitCode;
 
 use anyhow::Context as _;
 use clap::{Args, Subcommand};
@@ -38,8 +35,8 @@ pub enum TakeCommand {
     Show(IdArgs),
     /// Correct what is said of a take: slate, number, gesture, notes, the director's choice
     Label(LabelArgs),
-    /// Save a take's file: an MCAP, which Foxglove opens
-    Export(ExportArgs),
+    /// Save a take: its MCAP, or curves as CSV, for Live Link or moving a face, or markers as TRC or C3D
+    Export(export::ExportArgs),
     /// Publish a take again, in time, into a session
     Play(PlayArgs),
     /// Solve a take again into a new one, with another revision of the actor or other settings
@@ -117,14 +114,6 @@ pub struct LabelArgs {
 }
 
 #[derive(Debug, Args)]
-pub struct ExportArgs {
-    /// The take
-    id: String,
-    /// Where to [default: the take's id with .mcap]
-    file: Option<PathBuf>,
-}
-
-#[derive(Debug, Args)]
 pub struct DeleteArgs {
     /// The take
     id: String,
@@ -152,7 +141,9 @@ pub async fn run(context: &Context, command: TakeCommand) -> anyhow::Result<Exit
             return Ok(ExitCode::SUCCESS);
         }
         TakeCommand::Export(args) => {
-            export(&mut client, &args).await.context(what)?;
+            export::run(context, &mut client, &args)
+                .await
+                .context(what)?;
             return Ok(ExitCode::SUCCESS);
         }
         TakeCommand::Delete(args) => {
@@ -296,37 +287,4 @@ async fn list(context: &Context, client: &mut Client, args: ListArgs) -> anyhow:
         say(tables::takes(&takes))?;
     }
     Ok(())
-}
-
-/// A file that is there already is not touched.
-async fn export(client: &mut Client, args: &ExportArgs) -> anyhow::Result<()> {
-    let name = take_name(&args.id);
-    let beside = || PathBuf::from(format!("{}.mcap", super::short_id(&name)));
-    let file = args.file.clone().unwrap_or_else(beside);
-    let request = proto::ExportTakeRequest {
-        name: name.clone(),
-        format: proto::TakeFormat::Mcap.into(),
-    };
-    let pieces = client
-        .export_take(request)
-        .await
-        .map_err(ClientError::from)?;
-    let n_bytes = save(pieces.into_inner(), &file).await?;
-    say(format!("{n_bytes} bytes in {}", file.display()))?;
-    Ok(())
-}
-
-async fn save(
-    mut pieces: tonic::Streaming<proto::ExportTakeResponse>,
-    file: &Path,
-) -> anyhow::Result<usize> {
-    let named = || format!("cannot write {}", file.display());
-    let mut to = std::fs::File::create_new(file).with_context(named)?;
-    let mut n_bytes = 0;
-    while let Some(piece) = pieces.message().await.map_err(ClientError::from)? {
-        to.write_all(&piece.chunk).with_context(named)?;
-        n_bytes += piece.chunk.len();
-    }
-    to.sync_all().with_context(named)?;
-    Ok(n_bytes)
 }

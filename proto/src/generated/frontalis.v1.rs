@@ -11,7 +11,8 @@ pub struct Timecode {
     /// 0..59
     #[prost(uint32, tag = "3")]
     pub seconds: u32,
-    /// 0..rate-1; with drop_frame, 0 and 1 do not occur at the minutes SMPTE drops
+    /// 0..rate-1; with drop_frame, 0 and 1 (at 60000/1001 also 2 and 3) do not occur in the first second of a minute that is
+    /// no multiple of ten.
     #[prost(uint32, tag = "4")]
     pub frames: u32,
     /// Frames per second as a fraction: 30000/1001, 60/1, ...
@@ -5005,10 +5006,17 @@ impl ::prost::Name for ExportTakeRequest {
         "/frontalis.v1.ExportTakeRequest".into()
     }
 }
-#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
+#[derive(Clone, PartialEq, ::prost::Message)]
 pub struct ExportTakeResponse {
     #[prost(bytes = "vec", tag = "1")]
     pub chunk: ::prost::alloc::vec::Vec<u8>,
+    /// rows of the export so far, of `export.n_frames`; MCAP: bytes so far, of `export.n_bytes`
+    #[prost(uint64, tag = "2")]
+    pub frames_done: u64,
+    /// First response: what comes. Last response: the same with the number of bytes and their checksum; without it the export is
+    /// not whole.
+    #[prost(message, optional, tag = "3")]
+    pub export: ::core::option::Option<TakeExport>,
 }
 impl ::prost::Name for ExportTakeResponse {
     const NAME: &'static str = "ExportTakeResponse";
@@ -5018,6 +5026,55 @@ impl ::prost::Name for ExportTakeResponse {
     }
     fn type_url() -> ::prost::alloc::string::String {
         "/frontalis.v1.ExportTakeResponse".into()
+    }
+}
+/// What an export holds: frames from first to last, but for the gaps.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct TakeExport {
+    #[prost(enumeration = "TakeFormat", tag = "1")]
+    pub format: i32,
+    /// from slate and take number
+    #[prost(string, tag = "2")]
+    pub file_name: ::prost::alloc::string::String,
+    /// A row of an export is a frame: of the formats of curves one that gave a sample, of the formats of markers one that came
+    /// in its turn.
+    #[prost(uint64, tag = "3")]
+    pub first_frame: u64,
+    #[prost(uint64, tag = "4")]
+    pub last_frame: u64,
+    #[prost(uint64, tag = "5")]
+    pub n_frames: u64,
+    /// Spans of frame numbers between first and last that have no row: how many, the frames in them, and the first 256 of them.
+    #[prost(uint64, tag = "6")]
+    pub n_gaps: u64,
+    #[prost(uint64, tag = "7")]
+    pub n_missing_frames: u64,
+    #[prost(message, repeated, tag = "8")]
+    pub gaps: ::prost::alloc::vec::Vec<Gap>,
+    /// recorded, and without a row: not solved, or came late
+    #[prost(uint64, tag = "9")]
+    pub n_dropped_frames: u64,
+    /// of the first row
+    #[prost(message, optional, tag = "10")]
+    pub start_timecode: ::core::option::Option<Timecode>,
+    /// last response; of MCAP also the first
+    #[prost(uint64, tag = "11")]
+    pub n_bytes: u64,
+    /// last response; of all chunks, 64 hexadecimal digits
+    #[prost(string, tag = "12")]
+    pub sha256: ::prost::alloc::string::String,
+    /// TAKE_FORMAT_LIVE_LINK_CSV: shapes that no muscle drives; they are 0 throughout
+    #[prost(string, repeated, tag = "13")]
+    pub undriven_shapes: ::prost::alloc::vec::Vec<::prost::alloc::string::String>,
+}
+impl ::prost::Name for TakeExport {
+    const NAME: &'static str = "TakeExport";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.TakeExport".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.TakeExport".into()
     }
 }
 #[derive(Clone, PartialEq, ::prost::Message)]

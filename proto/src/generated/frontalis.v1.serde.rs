@@ -4071,11 +4071,25 @@ impl serde::Serialize for ExportTakeResponse {
         if !self.chunk.is_empty() {
             len += 1;
         }
+        if self.frames_done != 0 {
+            len += 1;
+        }
+        if self.export.is_some() {
+            len += 1;
+        }
         let mut struct_ser = serializer.serialize_struct("frontalis.v1.ExportTakeResponse", len)?;
         if !self.chunk.is_empty() {
             #[allow(clippy::needless_borrow)]
             #[allow(clippy::needless_borrows_for_generic_args)]
             struct_ser.serialize_field("chunk", pbjson::private::base64::encode(&self.chunk).as_str())?;
+        }
+        if self.frames_done != 0 {
+            #[allow(clippy::needless_borrow)]
+            #[allow(clippy::needless_borrows_for_generic_args)]
+            struct_ser.serialize_field("framesDone", ToString::to_string(&self.frames_done).as_str())?;
+        }
+        if let Some(v) = self.export.as_ref() {
+            struct_ser.serialize_field("export", v)?;
         }
         struct_ser.end()
     }
@@ -4088,11 +4102,16 @@ impl<'de> serde::Deserialize<'de> for ExportTakeResponse {
     {
         const FIELDS: &[&str] = &[
             "chunk",
+            "frames_done",
+            "framesDone",
+            "export",
         ];
 
         #[allow(clippy::enum_variant_names)]
         enum GeneratedField {
             Chunk,
+            FramesDone,
+            Export,
         }
         impl<'de> serde::Deserialize<'de> for GeneratedField {
             fn deserialize<D>(deserializer: D) -> std::result::Result<GeneratedField, D::Error>
@@ -4115,6 +4134,8 @@ impl<'de> serde::Deserialize<'de> for ExportTakeResponse {
                     {
                         match value {
                             "chunk" => Ok(GeneratedField::Chunk),
+                            "framesDone" | "frames_done" => Ok(GeneratedField::FramesDone),
+                            "export" => Ok(GeneratedField::Export),
                             _ => Err(serde::de::Error::unknown_field(value, FIELDS)),
                         }
                     }
@@ -4135,6 +4156,8 @@ impl<'de> serde::Deserialize<'de> for ExportTakeResponse {
                     V: serde::de::MapAccess<'de>,
             {
                 let mut chunk__ = None;
+                let mut frames_done__ = None;
+                let mut export__ = None;
                 while let Some(k) = map_.next_key()? {
                     match k {
                         GeneratedField::Chunk => {
@@ -4145,10 +4168,26 @@ impl<'de> serde::Deserialize<'de> for ExportTakeResponse {
                                 Some(map_.next_value::<::pbjson::private::BytesDeserialize<_>>()?.0)
                             ;
                         }
+                        GeneratedField::FramesDone => {
+                            if frames_done__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("framesDone"));
+                            }
+                            frames_done__ = 
+                                Some(map_.next_value::<::pbjson::private::NumberDeserialize<_>>()?.0)
+                            ;
+                        }
+                        GeneratedField::Export => {
+                            if export__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("export"));
+                            }
+                            export__ = map_.next_value()?;
+                        }
                     }
                 }
                 Ok(ExportTakeResponse {
                     chunk: chunk__.unwrap_or_default(),
+                    frames_done: frames_done__.unwrap_or_default(),
+                    export: export__,
                 })
             }
         }
@@ -15061,6 +15100,341 @@ impl<'de> serde::Deserialize<'de> for TakeEvent {
             }
         }
         deserializer.deserialize_struct("frontalis.v1.TakeEvent", FIELDS, GeneratedVisitor)
+    }
+}
+impl serde::Serialize for TakeExport {
+    #[allow(deprecated)]
+    fn serialize<S>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error>
+    where
+        S: serde::Serializer,
+    {
+        use serde::ser::SerializeStruct;
+        let mut len = 0;
+        if self.format != 0 {
+            len += 1;
+        }
+        if !self.file_name.is_empty() {
+            len += 1;
+        }
+        if self.first_frame != 0 {
+            len += 1;
+        }
+        if self.last_frame != 0 {
+            len += 1;
+        }
+        if self.n_frames != 0 {
+            len += 1;
+        }
+        if self.n_gaps != 0 {
+            len += 1;
+        }
+        if self.n_missing_frames != 0 {
+            len += 1;
+        }
+        if !self.gaps.is_empty() {
+            len += 1;
+        }
+        if self.n_dropped_frames != 0 {
+            len += 1;
+        }
+        if self.start_timecode.is_some() {
+            len += 1;
+        }
+        if self.n_bytes != 0 {
+            len += 1;
+        }
+        if !self.sha256.is_empty() {
+            len += 1;
+        }
+        if !self.undriven_shapes.is_empty() {
+            len += 1;
+        }
+        let mut struct_ser = serializer.serialize_struct("frontalis.v1.TakeExport", len)?;
+        if self.format != 0 {
+            let v = TakeFormat::try_from(self.format)
+                .map_err(|_| serde::ser::Error::custom(format!("Invalid variant {}", self.format)))?;
+            struct_ser.serialize_field("format", &v)?;
+        }
+        if !self.file_name.is_empty() {
+            struct_ser.serialize_field("fileName", &self.file_name)?;
+        }
+        if self.first_frame != 0 {
+            #[allow(clippy::needless_borrow)]
+            #[allow(clippy::needless_borrows_for_generic_args)]
+            struct_ser.serialize_field("firstFrame", ToString::to_string(&self.first_frame).as_str())?;
+        }
+        if self.last_frame != 0 {
+            #[allow(clippy::needless_borrow)]
+            #[allow(clippy::needless_borrows_for_generic_args)]
+            struct_ser.serialize_field("lastFrame", ToString::to_string(&self.last_frame).as_str())?;
+        }
+        if self.n_frames != 0 {
+            #[allow(clippy::needless_borrow)]
+            #[allow(clippy::needless_borrows_for_generic_args)]
+            struct_ser.serialize_field("nFrames", ToString::to_string(&self.n_frames).as_str())?;
+        }
+        if self.n_gaps != 0 {
+            #[allow(clippy::needless_borrow)]
+            #[allow(clippy::needless_borrows_for_generic_args)]
+            struct_ser.serialize_field("nGaps", ToString::to_string(&self.n_gaps).as_str())?;
+        }
+        if self.n_missing_frames != 0 {
+            #[allow(clippy::needless_borrow)]
+            #[allow(clippy::needless_borrows_for_generic_args)]
+            struct_ser.serialize_field("nMissingFrames", ToString::to_string(&self.n_missing_frames).as_str())?;
+        }
+        if !self.gaps.is_empty() {
+            struct_ser.serialize_field("gaps", &self.gaps)?;
+        }
+        if self.n_dropped_frames != 0 {
+            #[allow(clippy::needless_borrow)]
+            #[allow(clippy::needless_borrows_for_generic_args)]
+            struct_ser.serialize_field("nDroppedFrames", ToString::to_string(&self.n_dropped_frames).as_str())?;
+        }
+        if let Some(v) = self.start_timecode.as_ref() {
+            struct_ser.serialize_field("startTimecode", v)?;
+        }
+        if self.n_bytes != 0 {
+            #[allow(clippy::needless_borrow)]
+            #[allow(clippy::needless_borrows_for_generic_args)]
+            struct_ser.serialize_field("nBytes", ToString::to_string(&self.n_bytes).as_str())?;
+        }
+        if !self.sha256.is_empty() {
+            struct_ser.serialize_field("sha256", &self.sha256)?;
+        }
+        if !self.undriven_shapes.is_empty() {
+            struct_ser.serialize_field("undrivenShapes", &self.undriven_shapes)?;
+        }
+        struct_ser.end()
+    }
+}
+impl<'de> serde::Deserialize<'de> for TakeExport {
+    #[allow(deprecated)]
+    fn deserialize<D>(deserializer: D) -> std::result::Result<Self, D::Error>
+    where
+        D: serde::Deserializer<'de>,
+    {
+        const FIELDS: &[&str] = &[
+            "format",
+            "file_name",
+            "fileName",
+            "first_frame",
+            "firstFrame",
+            "last_frame",
+            "lastFrame",
+            "n_frames",
+            "nFrames",
+            "n_gaps",
+            "nGaps",
+            "n_missing_frames",
+            "nMissingFrames",
+            "gaps",
+            "n_dropped_frames",
+            "nDroppedFrames",
+            "start_timecode",
+            "startTimecode",
+            "n_bytes",
+            "nBytes",
+            "sha256",
+            "undriven_shapes",
+            "undrivenShapes",
+        ];
+
+        #[allow(clippy::enum_variant_names)]
+        enum GeneratedField {
+            Format,
+            FileName,
+            FirstFrame,
+            LastFrame,
+            NFrames,
+            NGaps,
+            NMissingFrames,
+            Gaps,
+            NDroppedFrames,
+            StartTimecode,
+            NBytes,
+            Sha256,
+            UndrivenShapes,
+        }
+        impl<'de> serde::Deserialize<'de> for GeneratedField {
+            fn deserialize<D>(deserializer: D) -> std::result::Result<GeneratedField, D::Error>
+            where
+                D: serde::Deserializer<'de>,
+            {
+                struct GeneratedVisitor;
+
+                impl serde::de::Visitor<'_> for GeneratedVisitor {
+                    type Value = GeneratedField;
+
+                    fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                        write!(formatter, "expected one of: {:?}", &FIELDS)
+                    }
+
+                    #[allow(unused_variables)]
+                    fn visit_str<E>(self, value: &str) -> std::result::Result<GeneratedField, E>
+                    where
+                        E: serde::de::Error,
+                    {
+                        match value {
+                            "format" => Ok(GeneratedField::Format),
+                            "fileName" | "file_name" => Ok(GeneratedField::FileName),
+                            "firstFrame" | "first_frame" => Ok(GeneratedField::FirstFrame),
+                            "lastFrame" | "last_frame" => Ok(GeneratedField::LastFrame),
+                            "nFrames" | "n_frames" => Ok(GeneratedField::NFrames),
+                            "nGaps" | "n_gaps" => Ok(GeneratedField::NGaps),
+                            "nMissingFrames" | "n_missing_frames" => Ok(GeneratedField::NMissingFrames),
+                            "gaps" => Ok(GeneratedField::Gaps),
+                            "nDroppedFrames" | "n_dropped_frames" => Ok(GeneratedField::NDroppedFrames),
+                            "startTimecode" | "start_timecode" => Ok(GeneratedField::StartTimecode),
+                            "nBytes" | "n_bytes" => Ok(GeneratedField::NBytes),
+                            "sha256" => Ok(GeneratedField::Sha256),
+                            "undrivenShapes" | "undriven_shapes" => Ok(GeneratedField::UndrivenShapes),
+                            _ => Err(serde::de::Error::unknown_field(value, FIELDS)),
+                        }
+                    }
+                }
+                deserializer.deserialize_identifier(GeneratedVisitor)
+            }
+        }
+        struct GeneratedVisitor;
+        impl<'de> serde::de::Visitor<'de> for GeneratedVisitor {
+            type Value = TakeExport;
+
+            fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                formatter.write_str("struct frontalis.v1.TakeExport")
+            }
+
+            fn visit_map<V>(self, mut map_: V) -> std::result::Result<TakeExport, V::Error>
+                where
+                    V: serde::de::MapAccess<'de>,
+            {
+                let mut format__ = None;
+                let mut file_name__ = None;
+                let mut first_frame__ = None;
+                let mut last_frame__ = None;
+                let mut n_frames__ = None;
+                let mut n_gaps__ = None;
+                let mut n_missing_frames__ = None;
+                let mut gaps__ = None;
+                let mut n_dropped_frames__ = None;
+                let mut start_timecode__ = None;
+                let mut n_bytes__ = None;
+                let mut sha256__ = None;
+                let mut undriven_shapes__ = None;
+                while let Some(k) = map_.next_key()? {
+                    match k {
+                        GeneratedField::Format => {
+                            if format__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("format"));
+                            }
+                            format__ = Some(map_.next_value::<TakeFormat>()? as i32);
+                        }
+                        GeneratedField::FileName => {
+                            if file_name__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("fileName"));
+                            }
+                            file_name__ = Some(map_.next_value()?);
+                        }
+                        GeneratedField::FirstFrame => {
+                            if first_frame__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("firstFrame"));
+                            }
+                            first_frame__ = 
+                                Some(map_.next_value::<::pbjson::private::NumberDeserialize<_>>()?.0)
+                            ;
+                        }
+                        GeneratedField::LastFrame => {
+                            if last_frame__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("lastFrame"));
+                            }
+                            last_frame__ = 
+                                Some(map_.next_value::<::pbjson::private::NumberDeserialize<_>>()?.0)
+                            ;
+                        }
+                        GeneratedField::NFrames => {
+                            if n_frames__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("nFrames"));
+                            }
+                            n_frames__ = 
+                                Some(map_.next_value::<::pbjson::private::NumberDeserialize<_>>()?.0)
+                            ;
+                        }
+                        GeneratedField::NGaps => {
+                            if n_gaps__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("nGaps"));
+                            }
+                            n_gaps__ = 
+                                Some(map_.next_value::<::pbjson::private::NumberDeserialize<_>>()?.0)
+                            ;
+                        }
+                        GeneratedField::NMissingFrames => {
+                            if n_missing_frames__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("nMissingFrames"));
+                            }
+                            n_missing_frames__ = 
+                                Some(map_.next_value::<::pbjson::private::NumberDeserialize<_>>()?.0)
+                            ;
+                        }
+                        GeneratedField::Gaps => {
+                            if gaps__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("gaps"));
+                            }
+                            gaps__ = Some(map_.next_value()?);
+                        }
+                        GeneratedField::NDroppedFrames => {
+                            if n_dropped_frames__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("nDroppedFrames"));
+                            }
+                            n_dropped_frames__ = 
+                                Some(map_.next_value::<::pbjson::private::NumberDeserialize<_>>()?.0)
+                            ;
+                        }
+                        GeneratedField::StartTimecode => {
+                            if start_timecode__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("startTimecode"));
+                            }
+                            start_timecode__ = map_.next_value()?;
+                        }
+                        GeneratedField::NBytes => {
+                            if n_bytes__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("nBytes"));
+                            }
+                            n_bytes__ = 
+                                Some(map_.next_value::<::pbjson::private::NumberDeserialize<_>>()?.0)
+                            ;
+                        }
+                        GeneratedField::Sha256 => {
+                            if sha256__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("sha256"));
+                            }
+                            sha256__ = Some(map_.next_value()?);
+                        }
+                        GeneratedField::UndrivenShapes => {
+                            if undriven_shapes__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("undrivenShapes"));
+                            }
+                            undriven_shapes__ = Some(map_.next_value()?);
+                        }
+                    }
+                }
+                Ok(TakeExport {
+                    format: format__.unwrap_or_default(),
+                    file_name: file_name__.unwrap_or_default(),
+                    first_frame: first_frame__.unwrap_or_default(),
+                    last_frame: last_frame__.unwrap_or_default(),
+                    n_frames: n_frames__.unwrap_or_default(),
+                    n_gaps: n_gaps__.unwrap_or_default(),
+                    n_missing_frames: n_missing_frames__.unwrap_or_default(),
+                    gaps: gaps__.unwrap_or_default(),
+                    n_dropped_frames: n_dropped_frames__.unwrap_or_default(),
+                    start_timecode: start_timecode__,
+                    n_bytes: n_bytes__.unwrap_or_default(),
+                    sha256: sha256__.unwrap_or_default(),
+                    undriven_shapes: undriven_shapes__.unwrap_or_default(),
+                })
+            }
+        }
+        deserializer.deserialize_struct("frontalis.v1.TakeExport", FIELDS, GeneratedVisitor)
     }
 }
 impl serde::Serialize for TakeFormat {

@@ -32,6 +32,12 @@ const BODY_COPIES: u64 = 2;
 /// A package on its way out is held as stored, gathered, and converted.
 const EXPORT_COPIES: u64 = 3;
 
+/// Takes that are exported at once, of all callers together.
+pub const TAKE_EXPORTS: usize = 8;
+
+/// One of them: a batch of messages and their decompressed chunk, the keys of an animation, and the mesh that moves.
+const TAKE_EXPORT_BYTES: u64 = 160 * MIB;
+
 /// Program, database cache, runtime.
 const FIXED_BYTES: u64 = 128 * MIB;
 
@@ -84,6 +90,10 @@ pub fn worst_case(config: &Config) -> Vec<MemoryItem> {
         item("imports", imports),
         item("exports", product(limits.exports, per_export)),
         item("takes being solved again", resolves),
+        item(
+            "exports of takes",
+            product(TAKE_EXPORTS as u64, TAKE_EXPORT_BYTES),
+        ),
         item("large bodies of HTTP", bodies),
         item("loaded actors", product(limits.cached_actors, ACTOR_BYTES)),
         item("the program itself", FIXED_BYTES),

@@ -5,7 +5,6 @@ mod resolve;
 use std::{io, path::PathBuf, sync::Arc, time::Duration};
 
 use frontalis_proto::v1;
-use futures::Stream;
 use sha2::{Digest as _, Sha256};
 use tokio::sync::{Semaphore, watch};
 use tonic::Status;
@@ -20,16 +19,13 @@ use crate::{
     name::{SessionId, TakeId},
     session::{SessionHandle, SessionRegistry},
     take::{
-        Condition, EndedTake, Recorder, Rewritten, StartError, TakeFileError, TakeUnderWay,
-        file_name,
+        Condition, EndedTake, ExportSource, Recorder, Rewritten, StartError, TakeFileError,
+        TakeUnderWay, file_name,
     },
-    wire::{page::Page, session::effective, take::NewTake},
+    wire::{self, page::Page, session::effective, take::NewTake},
 };
 
 pub use resolve::ResolveOrder;
-
-/// Bytes of a take's file in one message.
-const PIECE_BYTES: usize = 64 * 1024;
 
 /// Rows that are looked at together for a caller who sees few of them.
 const ROWS_AT_ONCE: usize = 256;
@@ -303,34 +299,16 @@ impl Takes {
         Ok((rows.collect(), next))
     }
 
-    /// The bytes of a take's file, as far as they are on stable storage, in pieces. A take under way is cut where it stood at
-    /// the start.
-    pub fn file(
-        &self,
-        row: &TakeRow,
-    ) -> impl Stream<Item = Result<v1::ExportTakeResponse, Status>> + Send + 'static {
-        let (this, name, n_bytes) = (self.clone(), file_name(&row.id), row.content.n_bytes);
-        futures::stream::try_unfold(0, move |offset| {
-            let (this, name) = (this.clone(), name.clone());
-            async move {
-                let n_left = usize::try_from(n_bytes - offset).unwrap_or(usize::MAX);
-                let chunk = this.piece(name, offset, n_left.min(PIECE_BYTES)).await?;
-                let next = offset + chunk.len() as u64;
-                let is_over = chunk.is_empty();
-                Ok((!is_over).then_some((v1::ExportTakeResponse { chunk }, next)))
-            }
-        })
-    }
-
-    async fn piece(&self, name: String, offset: u64, n_bytes: usize) -> Result<Vec<u8>, Status> {
-        let (fs, file) = (Arc::clone(&self.fs), self.dir.join(name));
-        let read = self.recorder.run(move || {
-            let mut piece = vec![0; n_bytes];
-            let n_read = fs.open(&file)?.read_at(offset, &mut piece)?;
-            piece.truncate(n_read);
-            Ok::<_, io::Error>(piece)
-        });
-        Ok(read.await.map_err(CatalogueError::Storage)?)
+    /// What an export of this take reads. Nobody reads more of a take under way than is on stable storage.
+    pub(super) fn source(&self, row: &TakeRow) -> ExportSource {
+        let under_way = self.recorder.under_way(&row.id);
+        ExportSource {
+            fs: Arc::clone(&self.fs),
+            file: self.dir.join(file_name(&row.id)),
+            n_bytes: under_way.map_or(u64::MAX, |it| it.n_bytes),
+            take: wire::take::take(row),
+            actor: None,
+        }
     }
 
     /// Changes what is said of a take.

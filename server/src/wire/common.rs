@@ -61,20 +61,20 @@ pub fn session_state(state: SessionState) -> v1::SessionState {
     }
 }
 
-/// A time of day that can occur; `None` when it cannot.
+/// A time of day that can occur; `None` when it cannot (CONTRACTS D-34).
 pub fn timecode(sent: &v1::Timecode) -> Option<Timecode> {
     let counting = if sent.drop_frame {
         Counting::Drop
     } else {
         Counting::NonDrop
     };
+    let rate = TimecodeRate::new(sent.rate_numerator, sent.rate_denominator, counting).ok()?;
     let label = Label {
         hours: sent.hours,
         minutes: sent.minutes,
         seconds: sent.seconds,
         frames: sent.frames,
     };
-    let rate = TimecodeRate::new(sent.rate_numerator, sent.rate_denominator, counting).ok()?;
     let timecode = Timecode::new(label, rate).ok()?;
     let timecode = timecode.with_sub_frame(sent.sub_frame).ok()?;
     Some(timecode.with_user_bits(sent.user_bits))

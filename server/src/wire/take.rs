@@ -12,9 +12,9 @@ use super::{
 use crate::catalogue::{TakeLabels, TakeRow, TakeState};
 
 /// Longest slate and gesture, code points.
-const MAX_LABEL: usize = 128;
+pub const MAX_LABEL: usize = 128;
 /// Longest notes, code points.
-const MAX_NOTES: usize = 4_096;
+pub const MAX_NOTES: usize = 4_096;
 
 /// A take on the wire.
 pub fn take(row: &TakeRow) -> v1::Take {
