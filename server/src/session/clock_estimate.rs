@@ -19,18 +19,18 @@ const OFFSET_SPAN_NANOS: i64 = 10_000_000_000;
 
 /// The drift is that of exchanges so old at most, and at least so far apart.
 const DRIFT_SPAN_NANOS: i64 = 60_000_000_000;
-const LEAST_DRIFT_SPAN_NANOS: i64 = 8_000_000_000;
+const LEAST_DRIFT_SPAN_NANOS: i64 = 15_000_000_000;
 
 /// Exchanges that are kept; of more that come within a span the oldest go.
 const MAX_EXCHANGES: usize = 1_200;
 
-/// Exchanges come no closer than this; what comes sooner is passed over.
-const LEAST_APART_NANOS: i64 = 40_000_000;
+/// Exchanges begin no closer to each other than this; what comes sooner is passed over.
+const LEAST_APART_NANOS: i64 = 30_000_000;
 
 /// No quartz drifts further.
-const LARGEST_DRIFT: f64 = 1e-3;
+const LARGEST_DRIFT: f64 = 5e-4;
 
-/// Rounds in which the drift is taken out of the bounds that it is found from.
+/// Rounds in which the drift of the round before is taken out of the bounds that it is found from.
 const DRIFT_ROUNDS: usize = 3;
 
 /// One exchange, nanoseconds.
@@ -98,8 +98,9 @@ impl ClockEstimate {
 
     /// Takes in an exchange; returns the report when it changes by it. What cannot have been so is passed over.
     pub(super) fn add(&mut self, exchange: ClockExchange) -> Option<ClockReport> {
+        // By when they began: to go by when they ended would pass over the fast ones.
         let is_apart = self.exchanges.back().is_none_or(|it| {
-            exchange.server_receive.saturating_sub(it.server_receive) >= LEAST_APART_NANOS
+            exchange.server_send.saturating_sub(it.server_send) >= LEAST_APART_NANOS
         });
         if !exchange.is_possible() || !is_apart {
             return None;
@@ -169,7 +170,7 @@ impl ClockEstimate {
             let older = self.corridor(self.exchanges.iter().take(n_older), base, t_older);
             let newer = self.corridor(self.exchanges.iter().skip(n_older), base, t_newer);
             let moved = newer.middle() - older.middle();
-            let drift = self.drift + moved / span(t_older, t_newer);
+            let drift = moved / span(t_older, t_newer);
             if drift.is_finite() {
                 self.drift = drift.clamp(-LARGEST_DRIFT, LARGEST_DRIFT);
             }
