@@ -165,6 +165,13 @@ bench-abuse: ## What abuse of HTTP/2 and of connections costs the server: the fi
 	@cargo test --package frontalis-tests --test end_to_end -- --nocapture --test-threads 1 \
 	  bad_input::http2 bad_input::connections bad_input::tls | grep --extended-regexp 'G12|F[0-9]+|test result'
 
+# Kills of make kill-test.
+RUNS ?= 200
+.PHONY: kill-test
+kill-test: ## A recording server killed RUNS (200) times: no acknowledged frame is lost; writes into docs/reliability.md
+	cargo build --release --bin frontalis-server
+	cargo run --release --package frontalis-tests --bin reliability -- kill $(RUNS)
+
 .PHONY: bench-doors
 bench-doors: ## Processor time of a delivered sample at each door beside plain TCP, and what clients that do not read cost
 	cargo build --release --bin frontalis-server

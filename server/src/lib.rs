@@ -21,4 +21,4 @@ pub mod wire;
 
 mod server;
 
-pub use server::{RunError, Server, run};
+pub use server::{RunError, Server, TakeFiles, run, run_on};

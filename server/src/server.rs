@@ -1,23 +1,25 @@
 //! One server from start to end: everything that runs is started here and joined here.
 
-use std::{io, net::SocketAddr, path::Path, sync::Arc, time::Duration};
+mod storage;
+
+use std::{io, net::SocketAddr, path::Path, time::Duration};
 
 use tokio::{net::TcpListener, sync::mpsc, time::timeout};
 use tokio_util::{sync::CancellationToken, task::TaskTracker};
 use tonic_health::server::HealthReporter;
 
 use crate::{
-    catalogue::{Catalogue, CatalogueError, Store},
+    catalogue::CatalogueError,
     clock::ServerClock,
     config::{Config, ConfigError, Limits, worst_case},
     executor::Workers,
-    fs::{Fs, MemFs, StdFs},
     reload::Reload,
     service::{
         access::{self, Access, TokenSourceError},
         audit::{Audit, AuditLog},
         calls::Calls,
         door::{self, ReflectionError, Services},
+        erasure::Erasure,
         grpc::{
             actors::{ActorLimits, ActorsGrpc},
             capture::CaptureGrpc,
@@ -33,6 +35,8 @@ use crate::{
             Listener,
             tls::{Tls, TlsError},
         },
+        readiness::Readiness,
+        retention::Retention,
         sessions::Sessions,
         takes::Takes,
     },
@@ -41,6 +45,8 @@ use crate::{
     take::Recorder,
     telemetry::Metrics,
 };
+
+pub use storage::TakeFiles;
 
 /// Why a server does not start.
 #[derive(Debug, thiserror::Error)]
@@ -74,6 +80,7 @@ pub struct Server {
     metrics: Metrics,
     registry: SessionRegistry,
     is_tls: bool,
+    rescue: Option<String>,
     reload: Reload,
     end: tokio::task::JoinHandle<bool>,
 }
@@ -105,6 +112,11 @@ impl Server {
         &self.registry
     }
 
+    /// Why it only shows the takes that it found: its catalogue is damaged.
+    pub fn rescue(&self) -> Option<&str> {
+        self.rescue.as_deref()
+    }
+
     /// Waits until everything is joined. True: all of it ended by itself; false: the grace was over and the rest was
     /// cut.
     pub async fn stopped(self) -> bool {
@@ -114,13 +126,29 @@ impl Server {
 
 /// Starts a server on a bound port; it drains and stops when `shutdown` is cancelled.
 ///
-/// The data directory is `config.data_dir`, or memory; see [`crate::config::IN_MEMORY`].
+/// The data directory is `config.data_dir`, or memory; see [`crate::config::IN_MEMORY`]. When its catalogue is damaged, the
+/// server starts all the same, changes nothing, and shows the takes that it finds ([`Server::rescue`]).
 ///
 /// # Errors
 ///
 /// [`RunError`]; then nothing runs.
 pub async fn run(
     config: Config,
+    listener: TcpListener,
+    shutdown: CancellationToken,
+) -> Result<Server, RunError> {
+    let files = TakeFiles::of(&config);
+    run_on(config, files, listener, shutdown).await
+}
+
+/// The same with takes on a disk of one's own, which a test may let fail.
+///
+/// # Errors
+///
+/// [`RunError`]; then nothing runs.
+pub async fn run_on(
+    config: Config,
+    files: TakeFiles,
     listener: TcpListener,
     shutdown: CancellationToken,
 ) -> Result<Server, RunError> {
@@ -132,15 +160,31 @@ pub async fn run(
     let metrics = first_figures(&config, protection);
 
     let heavy = Workers::pool(count(config.workers));
-    let store = open_store(&config, heavy.clone()).await?;
+    let cached_actors = count(config.limits.cached_actors);
+    let opened = storage::open(&config, heavy.clone(), cached_actors).await?;
+    let (store, rescue) = (opened.store, opened.rescue);
     let audit_log = audit_log(&config)?;
     let (audit, audited) = Audit::new();
     let (events, kept) = mpsc::channel(EVENT_CAPACITY);
     let limits = session_limits(&config.limits);
     let registry = SessionRegistry::new(limits.clone(), clock, events);
     let sessions = Sessions::new(store.clone(), registry.clone(), clock, limits.sessions);
-    let takes = takes(&config, &store, &registry, clock)?;
+    files.make_dir()?;
+    let takes = Takes::new(store.clone(), registry.clone(), clock, files.fs, files.dir);
+    takes.recorder().look_at_disk().await;
     let phases = Phases::default();
+    let readiness = Readiness {
+        phases: phases.clone(),
+        rescue: rescue.clone(),
+        disk: takes.recorder().room(),
+    };
+    let erasure = Erasure {
+        store: store.clone(),
+        registry: registry.clone(),
+        takes: takes.clone(),
+        clock,
+        audit: audit.clone(),
+    };
     let services = Services {
         actors: ActorsGrpc::new(
             store.clone(),
@@ -148,12 +192,12 @@ pub async fn run(
             clock,
             heavy,
             actor_limits(&config.limits),
-            audit.clone(),
+            erasure.clone(),
         ),
         sessions: SessionsGrpc::new(sessions.clone(), audit.clone()),
         capture: CaptureGrpc::new(registry.clone(), store.clone(), clock, audit.clone()),
         curves: CurvesGrpc::new(registry.clone(), store.clone(), clock),
-        takes: TakesGrpc::new(takes.clone()),
+        takes: TakesGrpc::new(takes.clone(), audit.clone()),
         server: ServerGrpc::new(clock, protection, phases.clone()),
         max_message_bytes: config.limits.message_bytes(),
         message_deadline: Duration::from_secs(config.transport.message_deadline_secs),
@@ -162,7 +206,7 @@ pub async fn run(
     let doors = Doors {
         services,
         metrics: metrics.clone(),
-        phases: phases.clone(),
+        readiness: readiness.clone(),
         large_bodies: LargeBodies::default(),
     };
     let access = access(&config, audit.clone(), metrics.clone())?;
@@ -178,10 +222,21 @@ pub async fn run(
         clock,
     };
     upkeep.spawn(keeper.run(kept, drained.clone()));
-    let recorder = start_recorder(&takes, &upkeep, &drained).await?;
-    let retention = Duration::from_secs(config.session_retention_hours * 3_600);
-    restore(&sessions).await?;
-    upkeep.spawn(keeper::collect(sessions, retention, drained.clone()));
+    let recorder = takes.recorder().clone();
+    if let Some(why) = &rescue {
+        let n_takes = takes.list_by_files().await?;
+        tracing::error!(why, n_takes, "RESCUE: nothing is changed, the takes that were found are shown");
+    } else {
+        let retention = Retention {
+            erasure,
+            takes: config.retention.takes(),
+        };
+        start_recorder(&takes, retention, &upkeep, &drained).await?;
+        restore(&sessions).await?;
+        let kept = Duration::from_hours(config.session_retention_hours);
+        upkeep.spawn(keeper::collect(sessions, kept, drained.clone()));
+    }
+    upkeep.spawn(door::report_disk(health.clone(), readiness.clone()));
 
     let reload = Reload::default();
     if let Some(tls) = &tls {
@@ -205,6 +260,7 @@ pub async fn run(
     let ending = Ending {
         grace: config.shutdown_grace(),
         phases,
+        readiness,
         health,
         registry: registry.clone(),
         connections,
@@ -222,6 +278,7 @@ pub async fn run(
         metrics,
         registry,
         is_tls: tls.is_some(),
+        rescue,
         reload,
         end,
     })
@@ -237,6 +294,7 @@ const LAST_TAKES: Duration = Duration::from_secs(3);
 struct Ending {
     grace: Duration,
     phases: Phases,
+    readiness: Readiness,
     health: HealthReporter,
     registry: SessionRegistry,
     connections: TaskTracker,
@@ -275,27 +333,13 @@ impl Ending {
     }
 
     async fn drain(&mut self) {
-        door::report(&self.health, false).await;
+        door::report(&self.health, &self.readiness).await;
         self.registry.drain().await;
         door::forget_health(&mut self.health).await;
         self.phases.closing.cancel();
         self.connections.close();
         self.connections.wait().await;
     }
-}
-
-async fn open_store(config: &Config, heavy: Workers) -> Result<Store, CatalogueError> {
-    // One connection to the database, so one worker: commits come one after the other anyway.
-    let commits = Workers::pool(1);
-    let directory = config.directory();
-    let catalogue = commits
-        .run(move || match directory {
-            Some(directory) => Catalogue::open(&directory),
-            None => Catalogue::in_memory(MemFs::default()),
-        })
-        .await?;
-    let cached = count(config.limits.cached_actors);
-    Ok(Store::new(catalogue, commits, heavy, cached))
 }
 
 async fn restore(sessions: &Sessions) -> Result<(), RunError> {
@@ -306,36 +350,27 @@ async fn restore(sessions: &Sessions) -> Result<(), RunError> {
     Ok(())
 }
 
-/// Brings the last process's takes into order, and lets new ones be recorded.
+/// Lets takes be recorded, and brings the last process's into order meanwhile; what was being erased is gone before.
 async fn start_recorder(
     takes: &Takes,
+    retention: Retention,
     upkeep: &TaskTracker,
     drained: &CancellationToken,
-) -> Result<Recorder, RunError> {
-    let n_recovered = takes.recover().await?;
-    if n_recovered > 0 {
-        tracing::info!(n_recovered, "takes that were cut short are whole again");
-    }
-    let recorder = takes.recorder().clone();
+) -> Result<(), RunError> {
+    retention.erasure.finish().await?;
+    let left_over = takes.look_at_left_over().await?;
+    let (recovering, stopped) = (takes.clone(), drained.clone());
+    upkeep.spawn(async move {
+        tokio::select! {
+            () = recovering.recover(left_over) => {}
+            () = stopped.cancelled() => {}
+        }
+    });
+    upkeep.spawn(retention.run(drained.clone()));
+    let recorder = takes.recorder();
     upkeep.spawn(recorder.clone().commit(drained.clone()));
-    Ok(recorder)
-}
-
-/// The folder of takes in the data directory.
-const TAKES: &str = "takes";
-
-fn takes(
-    config: &Config,
-    store: &Store,
-    registry: &SessionRegistry,
-    clock: ServerClock,
-) -> Result<Takes, RunError> {
-    let (fs, dir): (Arc<dyn Fs>, _) = match config.directory() {
-        Some(directory) => (Arc::new(StdFs), directory.join(TAKES)),
-        None => (Arc::new(MemFs::default()), Path::new("/").join(TAKES)),
-    };
-    fs.create_dir_all(&dir)?;
-    Ok(Takes::new(store.clone(), registry.clone(), clock, fs, dir))
+    upkeep.spawn(recorder.clone().watch_disk(drained.clone()));
+    Ok(())
 }
 
 fn actor_limits(limits: &Limits) -> ActorLimits {

@@ -5,20 +5,25 @@
 
 mod channel;
 mod chunk;
+mod disk_room;
 mod events;
 mod figures;
 mod finished;
+mod head;
 mod open_take;
 mod read;
 mod recorder;
+mod recovery;
 mod rewrite;
 mod scan;
 mod scribe;
 
 pub use channel::Channel;
+pub use disk_room::DiskRoom;
 pub use figures::TakeFigures;
 pub use open_take::{Condition, file_name};
 pub use read::{TakeReader, TakeRecord};
 pub use recorder::{EndedTake, Recorder, StartError, TakeUnderWay};
+pub use recovery::{Belonging, Recovered, final_form, header, recover, survey};
 pub use rewrite::{Rewritten, TakeFileError};
 pub use scan::ScanError;

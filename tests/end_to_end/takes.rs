@@ -2,6 +2,7 @@
 
 mod crash;
 mod labels;
+mod power_cut;
 mod recording;
 
 use frontalis_proto::v1::{
@@ -10,9 +11,9 @@ use frontalis_proto::v1::{
 use harness::TestServer;
 use tonic::Status;
 
-const SESSION: &str = "sessions/stage";
+pub const SESSION: &str = "sessions/stage";
 
-async fn start(server: &TestServer, session: &str, slate: &str) -> Result<Take, Status> {
+pub async fn start(server: &TestServer, session: &str, slate: &str) -> Result<Take, Status> {
     let request = StartTakeRequest {
         session: session.to_owned(),
         slate: slate.to_owned(),
@@ -22,7 +23,7 @@ async fn start(server: &TestServer, session: &str, slate: &str) -> Result<Take, 
     Ok(answer.into_inner().take.unwrap())
 }
 
-async fn stop(server: &TestServer, name: &str) -> Result<Take, Status> {
+pub async fn stop(server: &TestServer, name: &str) -> Result<Take, Status> {
     let request = StopTakeRequest {
         name: name.to_owned(),
     };
@@ -30,7 +31,7 @@ async fn stop(server: &TestServer, name: &str) -> Result<Take, Status> {
     Ok(answer.into_inner().take.unwrap())
 }
 
-async fn get(server: &TestServer, name: &str) -> Result<Take, Status> {
+pub async fn get(server: &TestServer, name: &str) -> Result<Take, Status> {
     let request = GetTakeRequest {
         name: name.to_owned(),
     };
@@ -39,7 +40,7 @@ async fn get(server: &TestServer, name: &str) -> Result<Take, Status> {
 }
 
 /// The take's file.
-async fn export(server: &TestServer, name: &str) -> Vec<u8> {
+pub async fn export(server: &TestServer, name: &str) -> Vec<u8> {
     let request = ExportTakeRequest {
         name: name.to_owned(),
         ..ExportTakeRequest::default()

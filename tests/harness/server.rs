@@ -1,6 +1,6 @@
 //! A whole server inside the test: the real listener on port 0, a folder of its own, stopped by a value.
 
-use std::net::SocketAddr;
+use std::{net::SocketAddr, path::Path};
 
 use frontalis_proto::v1::{
     Actor, CreateSessionRequest, EndSessionRequest, GetSessionRequest, ImportActorRequest,
@@ -8,7 +8,10 @@ use frontalis_proto::v1::{
     actor_service_client::ActorServiceClient, session_service_client::SessionServiceClient,
     take_service_client::TakeServiceClient,
 };
-use frontalis_server::{Server, config::Config};
+use frontalis_server::{
+    Server, TakeFiles,
+    config::{Config, IN_MEMORY},
+};
 use tempfile::TempDir;
 use tokio::net::TcpListener;
 use tokio_util::sync::CancellationToken;
@@ -71,6 +74,28 @@ impl TestServer {
             keys: None,
             tls: None,
         }
+    }
+
+    /// Starts one that forgets everything but its takes, which it keeps here.
+    pub async fn start_on(files: TakeFiles) -> Self {
+        let config = Config {
+            listen: SocketAddr::from(([127, 0, 0, 1], 0)),
+            data_dir: IN_MEMORY.to_owned(),
+            ..Config::default()
+        };
+        let running = spawn_on(&config, files).await;
+        Self {
+            config,
+            folder: tempfile::tempdir().unwrap(),
+            running,
+            keys: None,
+            tls: None,
+        }
+    }
+
+    /// Its data directory.
+    pub fn folder(&self) -> &Path {
+        self.folder.path()
     }
 
     /// Starts one that asks for tokens; the harness shows its own.
@@ -198,10 +223,16 @@ impl TestServer {
     }
 
     /// Drains the server and starts another on the same folder and the same port.
-    pub async fn restart(mut self) -> Self {
+    pub async fn restart(self) -> Self {
+        self.restart_after(|_| {}).await
+    }
+
+    /// The same, with something done to the folder in between.
+    pub async fn restart_after(mut self, change: impl FnOnce(&Path)) -> Self {
         let (address, mut config) = (self.address(), self.config.clone());
         let (keys, tls) = (self.keys.take(), self.tls.take());
         let folder = self.stop().await;
+        change(folder.path());
         config.listen = address;
         let running = spawn(&config).await;
         Self {
@@ -219,10 +250,20 @@ impl TestServer {
     ///
     /// When it is no program of its own.
     pub async fn kill_and_restart(self) -> Self {
+        self.kill_and_restart_after(|_| {}).await
+    }
+
+    /// The same, with something done to the folder in between.
+    ///
+    /// # Panics
+    ///
+    /// When it is no program of its own.
+    pub async fn kill_and_restart_after(self, change: impl FnOnce(&Path)) -> Self {
         match self.running {
             Running::Program(program) => program.kill(),
             Running::Inside { .. } => panic!("this server is no program of its own"),
         }
+        change(self.folder.path());
         let file = self.folder.path().join("frontalis.toml");
         let started = tokio::task::spawn_blocking(move || ServerProgram::start(&file));
         Self {
@@ -237,6 +278,19 @@ impl TestServer {
     /// A client of its takes.
     pub async fn takes(&self) -> TakeServiceClient<TestChannel> {
         TakeServiceClient::new(self.channel().await)
+    }
+
+    /// Drains the program and waits for its exit code.
+    ///
+    /// # Panics
+    ///
+    /// When it is no program of its own.
+    pub async fn exit_code(self) -> Option<i32> {
+        self.begin_drain();
+        match self.running {
+            Running::Program(mut program) => program.exit_code().await,
+            Running::Inside { .. } => panic!("this server is no program of its own"),
+        }
     }
 
     /// What SIGTERM does, without waiting.
@@ -414,9 +468,13 @@ impl TestServer {
 }
 
 async fn spawn(config: &Config) -> Running {
+    spawn_on(config, TakeFiles::of(config)).await
+}
+
+async fn spawn_on(config: &Config, files: TakeFiles) -> Running {
     let listener = TcpListener::bind(config.listen).await.unwrap();
     let shutdown = CancellationToken::new();
-    let server = frontalis_server::run(config.clone(), listener, shutdown.clone())
+    let server = frontalis_server::run_on(config.clone(), files, listener, shutdown.clone())
         .await
         .unwrap();
     Running::Inside { server, shutdown }

@@ -10,8 +10,10 @@ use crate::name::{ActorId, SessionId, TakeId};
 /// Where a take stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TakeState {
-    /// Its session is being recorded, or was when the server crashed.
+    /// Its session is being recorded.
     Recording,
+    /// Its session was being recorded when the last process stopped; its file is being brought into order.
+    Recovering,
     /// Whole.
     Closed,
     /// Part of it could not be written.
@@ -23,8 +25,9 @@ pub enum TakeState {
 }
 
 impl TakeState {
-    const NAMES: [(Self, &str); 5] = [
+    const NAMES: [(Self, &str); 6] = [
         (Self::Recording, "recording"),
+        (Self::Recovering, "recovering"),
         (Self::Closed, "closed"),
         (Self::Degraded, "degraded"),
         (Self::TruncatedDiskFull, "truncated-disk-full"),
@@ -109,6 +112,9 @@ pub struct TakeFilter {
 const COLUMNS: &str = "id, session, actor, actor_revision, slate, number, gesture, circled, notes,
     start_time_nanos, stop_time_nanos, first_frame, last_frame, n_frames, n_bytes, state, recovered";
 
+/// What is being erased is not seen any more.
+const SEEN: &str = "id NOT IN (SELECT id FROM doomed_takes)";
+
 impl Catalogue {
     /// Adds a take that begins. A number of 0 becomes the next of its slate.
     ///
@@ -116,38 +122,21 @@ impl Catalogue {
     ///
     /// [`CatalogueError::TakeExists`] when there is one of that id.
     pub fn add_take(&self, new: &TakeRow) -> Result<TakeRow, CatalogueError> {
-        let connection = self.connection();
-        let id = new.id.as_str();
-        if find(&connection, &new.id)?.is_some() {
-            return Err(CatalogueError::TakeExists);
+        insert(&self.connection(), new)
+    }
+
+    /// Adds takes whose files are there, all or none of them.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::add_take`].
+    pub fn add_takes(&self, new: &[TakeRow]) -> Result<(), CatalogueError> {
+        let mut connection = self.connection();
+        let change = connection.transaction()?;
+        for row in new {
+            insert(&change, row)?;
         }
-        let number = match new.labels.number {
-            0 => next_number(&connection, &new.labels.slate)?,
-            chosen => chosen,
-        };
-        connection.execute(
-            "INSERT INTO takes VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, ?15, ?16, ?17)",
-            params![
-                id,
-                new.session.as_str(),
-                new.actor.as_str(),
-                new.actor_revision,
-                new.labels.slate,
-                number,
-                new.labels.gesture,
-                new.labels.circled,
-                new.labels.notes,
-                new.start_time_nanos,
-                new.stop_time_nanos,
-                integer(new.content.first_frame),
-                integer(new.content.last_frame),
-                integer(new.content.n_frames),
-                integer(new.content.n_bytes),
-                new.state.name(),
-                new.recovered,
-            ],
-        )?;
-        found(&connection, &new.id)
+        Ok(change.commit()?)
     }
 
     /// One take.
@@ -181,15 +170,6 @@ impl Catalogue {
         let condition = "id > ?1 AND (?2 IS NULL OR session = ?2) AND (?3 IS NULL OR actor = ?3)
             AND (?4 IS NULL OR slate = ?4) ORDER BY id LIMIT ?5";
         select(&self.connection(), condition, values)
-    }
-
-    /// Takes that were being recorded when the last process stopped.
-    ///
-    /// # Errors
-    ///
-    /// That the database failed or a row cannot be read.
-    pub fn takes_left_open(&self) -> Result<Vec<TakeRow>, CatalogueError> {
-        select(&self.connection(), "state = 'recording' ORDER BY id", [])
     }
 
     /// Stores what people say of a take.
@@ -276,6 +256,40 @@ impl Catalogue {
     }
 }
 
+fn insert(connection: &Connection, new: &TakeRow) -> Result<TakeRow, CatalogueError> {
+    let id = new.id.as_str();
+    if find(connection, &new.id)?.is_some() {
+        return Err(CatalogueError::TakeExists);
+    }
+    let number = match new.labels.number {
+        0 => next_number(connection, &new.labels.slate)?,
+        chosen => chosen,
+    };
+    connection.execute(
+        "INSERT INTO takes VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, ?15, ?16, ?17)",
+        params![
+            id,
+            new.session.as_str(),
+            new.actor.as_str(),
+            new.actor_revision,
+            new.labels.slate,
+            number,
+            new.labels.gesture,
+            new.labels.circled,
+            new.labels.notes,
+            new.start_time_nanos,
+            new.stop_time_nanos,
+            integer(new.content.first_frame),
+            integer(new.content.last_frame),
+            integer(new.content.n_frames),
+            integer(new.content.n_bytes),
+            new.state.name(),
+            new.recovered,
+        ],
+    )?;
+    found(connection, &new.id)
+}
+
 fn found(connection: &Connection, id: &TakeId) -> Result<TakeRow, CatalogueError> {
     find(connection, id)?.ok_or(CatalogueError::NoTake)
 }
@@ -290,20 +304,21 @@ fn next_number(connection: &Connection, slate: &str) -> Result<u32, CatalogueErr
 }
 
 fn find(connection: &Connection, id: &TakeId) -> Result<Option<TakeRow>, CatalogueError> {
-    let statement = format!("SELECT {COLUMNS} FROM takes WHERE id = ?1");
+    let statement = format!("SELECT {COLUMNS} FROM takes WHERE {SEEN} AND id = ?1");
     let found = connection
         .query_row(&statement, [id.as_str()], raw)
         .optional()?;
     found.map(RawTake::parse).transpose()
 }
 
-fn select(
+/// Of the takes that are not being erased.
+pub(super) fn select(
     connection: &Connection,
     condition: &str,
     values: impl Params,
 ) -> Result<Vec<TakeRow>, CatalogueError> {
     let mut statement =
-        connection.prepare(&format!("SELECT {COLUMNS} FROM takes WHERE {condition}"))?;
+        connection.prepare(&format!("SELECT {COLUMNS} FROM takes WHERE {SEEN} AND {condition}"))?;
     let rows = statement.query_map(values, raw)?;
     rows.map(|it| it?.parse()).collect()
 }
@@ -370,7 +385,7 @@ impl RawTake {
     }
 }
 
-fn take_id(text: &str) -> Result<TakeId, CatalogueError> {
+pub(super) fn take_id(text: &str) -> Result<TakeId, CatalogueError> {
     TakeId::parse(text).map_err(|_| CatalogueError::Unreadable { what: "take id" })
 }
 

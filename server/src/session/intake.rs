@@ -105,6 +105,9 @@ impl Owner {
     }
 }
 
+/// A session changes hands by takeover at most this often (BAD_INPUT I10).
+const TAKEOVER_EVERY: Duration = Duration::from_secs(1);
+
 /// A session's publisher, frame order and queue.
 #[derive(Debug)]
 pub(super) struct Intake {
@@ -125,6 +128,8 @@ pub(super) struct Intake {
     is_settling: bool,
     /// Of whoever published last.
     last_mailbox: Weak<Mailbox>,
+    /// No earlier may somebody take over again.
+    next_takeover_nanos: i64,
     durable_through: u64,
     pub(super) publisher_timeout: Duration,
 }
@@ -146,6 +151,7 @@ impl Intake {
             recording: None,
             is_settling: false,
             last_mailbox: Weak::new(),
+            next_takeover_nanos: i64::MIN,
             durable_through: 0,
             publisher_timeout,
         }
@@ -230,6 +236,11 @@ impl Intake {
         if lease.owner.principal != claim.principal && !claim.outranks {
             return Err(SessionError::OwnedByAnother);
         }
+        let left_nanos = self.next_takeover_nanos.saturating_sub(now_nanos);
+        if left_nanos > 0 {
+            let retry_after = Duration::from_nanos(left_nanos.unsigned_abs());
+            return Err(SessionError::TakeoverRate { retry_after });
+        }
         Ok(())
     }
 
@@ -248,6 +259,9 @@ impl Intake {
             });
         }
         self.check_room_for_a_command()?;
+        if grant.claim.takeover {
+            self.next_takeover_nanos = now_nanos.saturating_add(nanos(TAKEOVER_EVERY));
+        }
         self.fence(grant.epoch);
         self.newest_epoch = grant.epoch;
         let owner = Owner::of(&grant.claim);

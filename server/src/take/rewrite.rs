@@ -17,6 +17,7 @@ use super::{
     channel::{self, Channel},
     chunk::Message,
     figures::TakeFigures,
+    head::final_version,
     scan::{self, Piece, Scan, ScanError},
 };
 use crate::fs::{AppendFile, Fs, TEMPORARY_SUFFIX};
@@ -35,6 +36,8 @@ pub struct Rewritten {
     pub n_damaged_bytes: u64,
     /// Bytes at its end that were never acknowledged.
     pub n_tail_bytes: u64,
+    /// When the last message was recorded, Unix nanoseconds; 0 without messages.
+    pub last_time_nanos: u64,
 }
 
 /// Why a take's file cannot be read, or not be put into its final form; what is there stays.
@@ -51,17 +54,23 @@ pub enum TakeFileError {
     Format(#[from] mcap::McapError),
 }
 
-/// Puts the compressed form of `name` in `dir` in its place. A crash at any moment leaves one of the two.
+/// Puts the compressed form of `name` in `dir` in its place. A crash at any moment leaves one of the two, and a failure no
+/// temporary file, unless that cannot even be removed.
 ///
 /// # Errors
 ///
-/// [`TakeFileError`]; the file is then as it was.
+/// [`TakeFileError`]; the file then has one of its two forms.
 pub fn rewrite(fs: &dyn Fs, dir: &Path, name: &str) -> Result<Rewritten, TakeFileError> {
     let file = dir.join(name);
     let temporary = dir.join(format!("{name}{TEMPORARY_SUFFIX}"));
     fs.remove(&temporary)?;
-    let rewritten = copy(fs, &file, &temporary)?;
-    fs.rename(&temporary, &file)?;
+    let copied = copy(fs, &file, &temporary);
+    let replaced = copied.and_then(|it| Ok(fs.rename(&temporary, &file).map(|()| it)?));
+    if replaced.is_err() {
+        // On a full disk it would be in the way; what cannot be removed now is at the next start.
+        drop(fs.remove(&temporary));
+    }
+    let rewritten = replaced?;
     fs.sync_dir(dir)?;
     Ok(rewritten)
 }
@@ -89,8 +98,6 @@ fn copy(fs: &dyn Fs, from: &Path, to: &Path) -> Result<Rewritten, TakeFileError>
 struct Copy {
     writer: Writer<NoSeek<Sink>>,
     rewritten: Rewritten,
-    /// Of the last message.
-    time_nanos: u64,
     next_event: u32,
 }
 
@@ -100,11 +107,11 @@ impl Copy {
             .compression(Some(Compression::Zstd))
             .chunk_size(Some(CHUNK_BYTES));
         let mut writer = options.create(NoSeek::new(sink))?;
+        writer.write_metadata(&final_version())?;
         channel::declare(&mut writer)?;
         Ok(Self {
             writer,
             rewritten: Rewritten::default(),
-            time_nanos: 0,
             next_event: 0,
         })
     }
@@ -118,7 +125,7 @@ impl Copy {
     }
 
     fn add(&mut self, message: &Message<'_>) -> Result<(), TakeFileError> {
-        self.time_nanos = message.time_nanos;
+        self.rewritten.last_time_nanos = message.time_nanos;
         if message.channel == Channel::Events {
             self.next_event = message.sequence.saturating_add(1);
         }
@@ -140,7 +147,7 @@ impl Copy {
         self.add(&Message {
             channel: Channel::Events,
             sequence: self.next_event,
-            time_nanos: self.time_nanos,
+            time_nanos: self.rewritten.last_time_nanos,
             data: &event.encode_to_vec(),
         })
     }

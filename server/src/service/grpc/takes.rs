@@ -12,6 +12,8 @@ use crate::{
     name::{ActorId, SessionId, TakeId},
     service::{
         access::{Action, Caller},
+        audit::Audit,
+        peer::Peer,
         takes::Takes,
     },
     wire::{
@@ -27,12 +29,13 @@ type Responses<T> = Pin<Box<dyn Stream<Item = Result<T, Status>> + Send>>;
 #[derive(Clone)]
 pub struct TakesGrpc {
     takes: Takes,
+    audit: Audit,
 }
 
 impl TakesGrpc {
-    /// The service over `takes`.
-    pub fn new(takes: Takes) -> Self {
-        Self { takes }
+    /// The service over `takes`; exports and erasures are written down.
+    pub fn new(takes: Takes, audit: Audit) -> Self {
+        Self { takes, audit }
     }
 
     /// The take of this name, if the caller may do this to it. One that it must not see is not there.
@@ -136,10 +139,12 @@ impl TakeService for TakesGrpc {
         &self,
         request: Request<v1::DeleteTakeRequest>,
     ) -> Result<Response<v1::DeleteTakeResponse>, Status> {
-        let caller = Caller::of(request.extensions());
+        let peer = Peer::of(request.extensions());
         let name = &request.get_ref().name;
-        let row = self.allowed(&caller, Action::DeleteTake, name).await?;
-        self.takes.delete(&row.id).await?;
+        let row = self.allowed(&peer.caller, Action::DeleteTake, name).await?;
+        let deleted = self.takes.delete(&row.id).await;
+        self.audit
+            .outcome("take_delete", &peer, &row.id.resource(), deleted)?;
         Ok(Response::new(v1::DeleteTakeResponse {}))
     }
 
@@ -149,9 +154,12 @@ impl TakeService for TakesGrpc {
         &self,
         request: Request<v1::ExportTakeRequest>,
     ) -> Result<Response<Self::ExportTakeStream>, Status> {
-        let caller = Caller::of(request.extensions());
+        let peer = Peer::of(request.extensions());
         let name = &request.get_ref().name;
-        let row = self.allowed(&caller, Action::ReadTakes, name).await?;
+        let row = self.allowed(&peer.caller, Action::ReadTakes, name).await?;
+        let readable = self.takes.check_readable(&row).await;
+        self.audit
+            .outcome("take_export", &peer, &row.id.resource(), readable)?;
         let number = request.get_ref().format;
         let unknown = |_| FieldError::new("format", FieldProblem::UnknownEnum(number));
         let format = v1::TakeFormat::try_from(number).map_err(unknown)?;
