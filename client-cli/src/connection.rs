@@ -120,11 +120,17 @@ pub fn with_scheme(server: &str) -> String {
     }
 }
 
-fn with_token(channel: transport::Channel, credentials: &Credentials) -> Channel {
+/// A connection over which every call carries the token of `credentials`.
+pub fn with_token(channel: transport::Channel, credentials: &Credentials) -> Channel {
     Channel::new(channel, Bearer::new(credentials.token.as_ref()))
 }
 
-fn endpoint(server: &str, credentials: &Credentials) -> Result<Endpoint, ClientError> {
+/// How a server is reached: for those who connect over another network than the system's.
+///
+/// # Errors
+///
+/// As [`lazy_channel_with`].
+pub fn endpoint(server: &str, credentials: &Credentials) -> Result<Endpoint, ClientError> {
     let not_an_address = || {
         invalid(format!(
             "{server:?} is not a server address; expected http://HOST:PORT or https://HOST:PORT"

@@ -130,7 +130,10 @@ impl CatalogueError {
         let Self::Damaged { source, .. } = self else {
             return false;
         };
-        matches!(source.sqlite_error_code(), Some(DatabaseCorrupt | NotADatabase))
+        matches!(
+            source.sqlite_error_code(),
+            Some(DatabaseCorrupt | NotADatabase)
+        )
     }
 
     /// Names the path, for the operator who has to look there.
@@ -199,6 +202,17 @@ impl Catalogue {
     /// That the database failed.
     pub fn in_memory(files: MemFs) -> Result<Self, CatalogueError> {
         let connection = Connection::open_in_memory()?;
+        Self::start(connection, Arc::new(files), Path::new("/"), None)
+    }
+
+    /// A catalogue in the memory database of this name, which lives on while any connection to it is open: a process that
+    /// crashes and its successor, in one process. Package bytes go to `files`.
+    ///
+    /// # Errors
+    ///
+    /// That the database failed.
+    pub fn shared_memory(name: &str, files: MemFs) -> Result<Self, CatalogueError> {
+        let connection = Connection::open(format!("file:{name}?mode=memory&cache=shared"))?;
         Self::start(connection, Arc::new(files), Path::new("/"), None)
     }
 

@@ -59,6 +59,25 @@ impl Workers {
     }
 }
 
+/// Whether a server has threads for its long work.
+#[derive(Clone, Copy, Debug)]
+pub enum Threads {
+    /// Bounded pools of them.
+    Pools,
+    /// None but the caller's, as in a simulation.
+    Inline,
+}
+
+impl Threads {
+    /// Workers that run at most `n_workers` closures at once.
+    pub fn workers(self, n_workers: usize) -> Workers {
+        match self {
+            Self::Pools => Workers::pool(n_workers),
+            Self::Inline => Workers::inline(),
+        }
+    }
+}
+
 fn resume<T>(error: JoinError) -> T {
     match error.try_into_panic() {
         Ok(panic) => std::panic::resume_unwind(panic),

@@ -21,4 +21,4 @@ pub mod wire;
 
 mod server;
 
-pub use server::{RunError, Server, TakeFiles, run, run_on};
+pub use server::{Ground, RunError, Server, run, run_on};

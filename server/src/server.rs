@@ -1,22 +1,24 @@
 //! One server from start to end: everything that runs is started here and joined here.
 
-mod storage;
+mod ending;
+mod ground;
 
 use std::{io, net::SocketAddr, path::Path, time::Duration};
 
-use tokio::{net::TcpListener, sync::mpsc, time::timeout};
+use tokio::{net::TcpListener, sync::mpsc};
 use tokio_util::{sync::CancellationToken, task::TaskTracker};
-use tonic_health::server::HealthReporter;
+
+use self::ending::Ending;
+pub use self::ground::Ground;
 
 use crate::{
     catalogue::CatalogueError,
     clock::ServerClock,
     config::{Config, ConfigError, Limits, worst_case},
-    executor::Workers,
     reload::Reload,
     service::{
         access::{self, Access, TokenSourceError},
-        audit::{Audit, AuditLog},
+        audit::Audit,
         calls::Calls,
         door::{self, ReflectionError, Services},
         erasure::Erasure,
@@ -32,7 +34,7 @@ use crate::{
         http::{Doors, LargeBodies},
         keeper::{self, EVENT_CAPACITY, Keeper},
         listener::{
-            Listener,
+            Incoming, Listener,
             tls::{Tls, TlsError},
         },
         readiness::Readiness,
@@ -42,11 +44,8 @@ use crate::{
     },
     session::{SessionLimits, SessionRegistry},
     shutdown::Phases,
-    take::Recorder,
     telemetry::Metrics,
 };
-
-pub use storage::TakeFiles;
 
 /// Why a server does not start.
 #[derive(Debug, thiserror::Error)]
@@ -137,40 +136,44 @@ pub async fn run(
     listener: TcpListener,
     shutdown: CancellationToken,
 ) -> Result<Server, RunError> {
-    let files = TakeFiles::of(&config);
-    run_on(config, files, listener, shutdown).await
+    config.validate()?;
+    let address = listener.local_addr()?;
+    let ground = Ground::of(&config).await?;
+    run_on(ground, config, Incoming::Port(listener), address, shutdown).await
 }
 
-/// The same with takes on a disk of one's own, which a test may let fail.
+/// The same on a given ground, with connections from anywhere; `address` is where it says that it listens.
 ///
 /// # Errors
 ///
 /// [`RunError`]; then nothing runs.
 pub async fn run_on(
+    ground: Ground,
     config: Config,
-    files: TakeFiles,
-    listener: TcpListener,
+    incoming: Incoming,
+    address: SocketAddr,
     shutdown: CancellationToken,
 ) -> Result<Server, RunError> {
-    config.validate()?;
-    let address = listener.local_addr()?;
     let tls = load_tls(&config).await?;
     let protection = protection(&config, address);
     let clock = ServerClock::start_now();
     let metrics = first_figures(&config, protection);
 
-    let heavy = Workers::pool(count(config.workers));
-    let cached_actors = count(config.limits.cached_actors);
-    let opened = storage::open(&config, heavy.clone(), cached_actors).await?;
-    let (store, rescue) = (opened.store, opened.rescue);
-    let audit_log = audit_log(&config)?;
+    let (store, heavy) = (ground.store.clone(), ground.heavy.clone());
+    let rescue = ground.rescue;
     let (audit, audited) = Audit::new();
     let (events, kept) = mpsc::channel(EVENT_CAPACITY);
     let limits = session_limits(&config.limits);
     let registry = SessionRegistry::new(limits.clone(), clock, events);
     let sessions = Sessions::new(store.clone(), registry.clone(), clock, limits.sessions);
-    files.make_dir()?;
-    let takes = Takes::new(store.clone(), registry.clone(), clock, files.fs, files.dir);
+    let takes = Takes::new(
+        ground.threads,
+        store.clone(),
+        registry.clone(),
+        clock,
+        ground.files,
+        ground.takes,
+    )?;
     takes.recorder().look_at_disk().await;
     let phases = Phases::default();
     let readiness = Readiness {
@@ -215,7 +218,7 @@ pub async fn run_on(
 
     let drained = CancellationToken::new();
     let upkeep = TaskTracker::new();
-    upkeep.spawn(audit_log.run(audited, drained.clone()));
+    upkeep.spawn(ground.audit_log.run(audited, drained.clone()));
     let keeper = Keeper {
         store,
         registry: registry.clone(),
@@ -225,7 +228,11 @@ pub async fn run_on(
     let recorder = takes.recorder().clone();
     if let Some(why) = &rescue {
         let n_takes = takes.list_by_files().await?;
-        tracing::error!(why, n_takes, "RESCUE: nothing is changed, the takes that were found are shown");
+        tracing::error!(
+            why,
+            n_takes,
+            "RESCUE: nothing is changed, the takes that were found are shown"
+        );
     } else {
         let retention = Retention {
             erasure,
@@ -248,7 +255,7 @@ pub async fn run_on(
     upkeep.spawn(access::follow(access, reloads, end));
     let connections = TaskTracker::new();
     let accepting = Listener {
-        listener,
+        incoming,
         router,
         tls: tls.clone(),
         metrics: metrics.clone(),
@@ -282,64 +289,6 @@ pub async fn run_on(
         reload,
         end,
     })
-}
-
-/// Time for the last events to reach the disk, after everything else has ended.
-const LAST_WRITES: Duration = Duration::from_secs(1);
-
-/// Time for the last takes to be put into their final form; what is not is so at the next start.
-const LAST_TAKES: Duration = Duration::from_secs(3);
-
-/// What has to end, in order.
-struct Ending {
-    grace: Duration,
-    phases: Phases,
-    readiness: Readiness,
-    health: HealthReporter,
-    registry: SessionRegistry,
-    connections: TaskTracker,
-    recorder: Recorder,
-    upkeep: TaskTracker,
-    drained: CancellationToken,
-    metrics: Metrics,
-}
-
-impl Ending {
-    /// Drains within the grace, then cuts what is left. True: nothing had to be cut.
-    async fn run(mut self) -> bool {
-        tracing::info!("draining");
-        self.metrics.set_ready(false);
-        self.phases.draining.cancel();
-        let clean = timeout(self.grace, self.drain()).await.is_ok();
-        if !clean {
-            let n_connections = self.metrics.open_connections();
-            tracing::warn!(
-                n_connections,
-                "the grace is over, what is still open is cut"
-            );
-        }
-        self.phases.closing.cancel();
-        self.phases.cut.cancel();
-        self.connections.close();
-        self.connections.wait().await;
-        // Sessions are over, so their takes end by themselves.
-        let recorded = timeout(LAST_TAKES, self.recorder.ended()).await.is_ok();
-        self.drained.cancel();
-        self.upkeep.close();
-        // Only a session that did not finish within the grace can still hold these up.
-        let written = timeout(LAST_WRITES, self.upkeep.wait()).await.is_ok();
-        tracing::info!("stopped");
-        clean && written && recorded
-    }
-
-    async fn drain(&mut self) {
-        door::report(&self.health, &self.readiness).await;
-        self.registry.drain().await;
-        door::forget_health(&mut self.health).await;
-        self.phases.closing.cancel();
-        self.connections.close();
-        self.connections.wait().await;
-    }
 }
 
 async fn restore(sessions: &Sessions) -> Result<(), RunError> {
@@ -395,13 +344,6 @@ fn access(config: &Config, audit: Audit, metrics: Metrics) -> Result<Access, Tok
     }
     let path = Path::new(&config.token_file);
     Access::with_tokens(path, &config.limits, audit, metrics)
-}
-
-fn audit_log(config: &Config) -> Result<AuditLog, RunError> {
-    match config.directory() {
-        Some(directory) => AuditLog::open(&directory).map_err(RunError::Audit),
-        None => Ok(AuditLog::in_memory()),
-    }
 }
 
 async fn load_tls(config: &Config) -> Result<Option<Tls>, RunError> {

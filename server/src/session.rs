@@ -22,6 +22,7 @@ mod registry;
 mod settings;
 mod shared;
 mod status;
+mod tape;
 mod worker;
 
 pub use error::SessionError;

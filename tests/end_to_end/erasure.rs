@@ -6,12 +6,14 @@ use frontalis_access::AuditLine;
 use frontalis_proto::{
     FieldMask,
     v1::{
-        CreateSessionRequest, DeleteActorRequest, DeleteTakeRequest, ErasureReceipt, ImportActorStart,
-        StartTakeRequest, Take, UpdateTakeRequest,
+        CreateSessionRequest, DeleteActorRequest, DeleteTakeRequest, ErasureReceipt,
+        ImportActorStart, StartTakeRequest, Take, UpdateTakeRequest,
     },
 };
 use frontalis_server::{catalogue::Catalogue, name::ActorId, service::audit::FILE_NAME};
-use harness::{Problem, Publisher, TestPerformance, TestServer, assert_eventually, reference_package};
+use harness::{
+    Problem, Publisher, TestPerformance, TestServer, assert_eventually, reference_package,
+};
 use tonic::Code;
 
 use crate::takes::{get, stop};
@@ -30,7 +32,10 @@ const SESSION: &str = "sessions/anna-1";
 /// Coordinates of a frame as they stand in a file that grows.
 fn planted_positions() -> Vec<u8> {
     let positions = &TestPerformance::reference().frame(25).positions;
-    positions[..6].iter().flat_map(|it| it.to_le_bytes()).collect()
+    positions[..6]
+        .iter()
+        .flat_map(|it| it.to_le_bytes())
+        .collect()
 }
 
 fn patterns() -> Vec<Vec<u8>> {
@@ -77,7 +82,12 @@ async fn with_anna() -> TestServer {
         display_name: PLANTED[1].to_owned(),
         ..CreateSessionRequest::default()
     };
-    server.sessions().await.create_session(request).await.unwrap();
+    server
+        .sessions()
+        .await
+        .create_session(request)
+        .await
+        .unwrap();
     let take = record(&server, 1).await;
     let stopped = stop(&server, &take.name).await.unwrap();
     let changed = Take {
@@ -127,7 +137,9 @@ async fn erase(server: &TestServer) -> ErasureReceipt {
 /// Event and result of every line of the audit log about this.
 fn audited(folder: &Path, object: &str) -> Vec<(String, String)> {
     let text = fs::read_to_string(folder.join(FILE_NAME)).unwrap();
-    let lines = text.lines().map(|it| serde_json::from_str::<AuditLine>(it).unwrap());
+    let lines = text
+        .lines()
+        .map(|it| serde_json::from_str::<AuditLine>(it).unwrap());
     let lines = lines.filter(|it| it.object == object);
     lines.map(|it| (it.event, it.result)).collect()
 }
@@ -138,15 +150,27 @@ async fn an_erased_person_leaves_no_byte_and_a_receipt() {
     let receipt = erase(&server).await;
     assert_eq!(found(server.folder()), Vec::<usize>::new());
     assert_eq!(
-        (receipt.actor.as_str(), receipt.n_revisions, receipt.n_sessions, receipt.n_takes),
+        (
+            receipt.actor.as_str(),
+            receipt.n_revisions,
+            receipt.n_sessions,
+            receipt.n_takes
+        ),
         ("actors/anna", 1, 1, 2)
     );
     assert!(receipt.n_bytes > reference_package().len() as u64);
-    let listed = server.takes().await.list_takes(frontalis_proto::v1::ListTakesRequest::default()).await;
+    let listed = server
+        .takes()
+        .await
+        .list_takes(frontalis_proto::v1::ListTakesRequest::default())
+        .await;
     assert_eq!(listed.unwrap().into_inner().takes, []);
     let folder = server.stop().await;
     let lines = audited(folder.path(), "actors/anna");
-    assert!(lines.contains(&("actor_delete".to_owned(), "ok".to_owned())), "{lines:?}");
+    assert!(
+        lines.contains(&("actor_delete".to_owned(), "ok".to_owned())),
+        "{lines:?}"
+    );
     assert_eq!(found(folder.path()), Vec::<usize>::new());
 }
 
@@ -156,32 +180,52 @@ async fn an_erasure_that_a_crash_cut_is_finished_at_the_next_start() {
     // All that the first step does: from here on the person is not seen any more.
     let doom = |folder: &Path| {
         let catalogue = Catalogue::open(folder).unwrap();
-        catalogue.doom_actor(&ActorId::parse("anna").unwrap()).unwrap();
+        catalogue
+            .doom_actor(&ActorId::parse("anna").unwrap())
+            .unwrap();
     };
     let server = server.restart_after(doom).await;
     assert_eventually!(found(server.folder()).is_empty());
     let request = frontalis_proto::v1::GetSessionRequest {
         name: SESSION.to_owned(),
     };
-    let gone = server.sessions().await.get_session(request).await.unwrap_err();
+    let gone = server
+        .sessions()
+        .await
+        .get_session(request)
+        .await
+        .unwrap_err();
     assert_eq!(Problem::of(&gone).code, Code::NotFound);
     let folder = server.stop().await;
     let lines = audited(folder.path(), "actors/anna");
-    assert!(lines.iter().any(|it| it.1.starts_with("finished: 1 revisions, 1 sessions, 2 takes")), "{lines:?}");
+    assert!(
+        lines.iter().any(|it| it
+            .1
+            .starts_with("finished: 1 revisions, 1 sessions, 2 takes")),
+        "{lines:?}"
+    );
 }
 
 #[tokio::test(flavor = "multi_thread", worker_threads = 2)]
 async fn an_erased_take_leaves_no_byte_and_lines_in_the_audit_log() {
     let server = TestServer::with_session("stage").await;
-    let take = crate::takes::start(&server, "sessions/stage", PLANTED[2]).await.unwrap();
+    let take = crate::takes::start(&server, "sessions/stage", PLANTED[2])
+        .await
+        .unwrap();
     assert!(!crate::takes::export(&server, &take.name).await.is_empty());
     let request = DeleteTakeRequest {
         name: take.name.clone(),
     };
     server.takes().await.delete_take(request).await.unwrap();
-    assert_eq!(Problem::of(&get(&server, &take.name).await.unwrap_err()).code, Code::NotFound);
+    assert_eq!(
+        Problem::of(&get(&server, &take.name).await.unwrap_err()).code,
+        Code::NotFound
+    );
     assert_eq!(found(server.folder()), Vec::<usize>::new());
     let folder = server.stop().await;
-    let events: Vec<String> = audited(folder.path(), &take.name).into_iter().map(|it| it.0).collect();
+    let events: Vec<String> = audited(folder.path(), &take.name)
+        .into_iter()
+        .map(|it| it.0)
+        .collect();
     assert_eq!(events, ["take_export", "take_delete"]);
 }

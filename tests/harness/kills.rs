@@ -130,7 +130,9 @@ async fn publish(mut publisher: Publisher, performance: TestPerformance, take: S
     let mut sent = 0;
     loop {
         while sent < publisher.report().durable_through + AHEAD {
-            publisher.send(performance.frames(sent + 1..=sent + BATCH)).await;
+            publisher
+                .send(performance.frames(sent + 1..=sent + BATCH))
+                .await;
             sent += BATCH;
         }
         match publisher.next().await {

@@ -1,6 +1,6 @@
 //! A whole server inside the test: the real listener on port 0, a folder of its own, stopped by a value.
 
-use std::{net::SocketAddr, path::Path};
+use std::{net::SocketAddr, path::Path, sync::Arc};
 
 use frontalis_proto::v1::{
     Actor, CreateSessionRequest, EndSessionRequest, GetSessionRequest, ImportActorRequest,
@@ -9,8 +9,10 @@ use frontalis_proto::v1::{
     take_service_client::TakeServiceClient,
 };
 use frontalis_server::{
-    Server, TakeFiles,
+    Ground, Server,
     config::{Config, IN_MEMORY},
+    fs::Fs,
+    service::listener::Incoming,
 };
 use tempfile::TempDir;
 use tokio::net::TcpListener;
@@ -77,13 +79,25 @@ impl TestServer {
     }
 
     /// Starts one that forgets everything but its takes, which it keeps here.
-    pub async fn start_on(files: TakeFiles) -> Self {
+    pub async fn start_on(files: Arc<dyn Fs>) -> Self {
         let config = Config {
             listen: SocketAddr::from(([127, 0, 0, 1], 0)),
             data_dir: IN_MEMORY.to_owned(),
             ..Config::default()
         };
-        let running = spawn_on(&config, files).await;
+        let listener = TcpListener::bind(config.listen).await.unwrap();
+        let address = listener.local_addr().unwrap();
+        let (ground, incoming) = (
+            Ground::with_takes_in(&config, files).unwrap(),
+            Incoming::Port(listener),
+        );
+        let shutdown = CancellationToken::new();
+        let run = frontalis_server::run_on;
+        let server = run(ground, config.clone(), incoming, address, shutdown.clone()).await;
+        let running = Running::Inside {
+            server: server.unwrap(),
+            shutdown,
+        };
         Self {
             config,
             folder: tempfile::tempdir().unwrap(),
@@ -468,13 +482,9 @@ impl TestServer {
 }
 
 async fn spawn(config: &Config) -> Running {
-    spawn_on(config, TakeFiles::of(config)).await
-}
-
-async fn spawn_on(config: &Config, files: TakeFiles) -> Running {
     let listener = TcpListener::bind(config.listen).await.unwrap();
     let shutdown = CancellationToken::new();
-    let server = frontalis_server::run_on(config.clone(), files, listener, shutdown.clone())
+    let server = frontalis_server::run(config.clone(), listener, shutdown.clone())
         .await
         .unwrap();
     Running::Inside { server, shutdown }

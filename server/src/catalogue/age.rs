@@ -47,6 +47,8 @@ impl Catalogue {
     /// That the database failed.
     pub fn noted_time(&self) -> Result<i64, CatalogueError> {
         let statement = "SELECT COALESCE(MAX(value), 0) FROM counters WHERE name = 'noted_time'";
-        Ok(self.connection().query_row(statement, [], |row| row.get(0))?)
+        Ok(self
+            .connection()
+            .query_row(statement, [], |row| row.get(0))?)
     }
 }

@@ -50,7 +50,10 @@ impl Catalogue {
             return Err(CatalogueError::NoActor);
         }
         check_unused(&change, id)?;
-        change.execute("INSERT OR IGNORE INTO doomed_actors VALUES (?1)", [id.as_str()])?;
+        change.execute(
+            "INSERT OR IGNORE INTO doomed_actors VALUES (?1)",
+            [id.as_str()],
+        )?;
         change.execute(
             "INSERT OR IGNORE INTO doomed_takes SELECT id FROM takes WHERE actor = ?1",
             [id.as_str()],
@@ -64,8 +67,14 @@ impl Catalogue {
         let takes = ids("SELECT id FROM takes WHERE actor = ?1 ORDER BY id")?;
         change.commit()?;
         Ok(Doomed {
-            sessions: sessions.iter().map(|it| session_id(it)).collect::<Result<_, _>>()?,
-            takes: takes.iter().map(|it| take_id(it)).collect::<Result<_, _>>()?,
+            sessions: sessions
+                .iter()
+                .map(|it| session_id(it))
+                .collect::<Result<_, _>>()?,
+            takes: takes
+                .iter()
+                .map(|it| take_id(it))
+                .collect::<Result<_, _>>()?,
         })
     }
 

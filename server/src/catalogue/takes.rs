@@ -317,8 +317,9 @@ pub(super) fn select(
     condition: &str,
     values: impl Params,
 ) -> Result<Vec<TakeRow>, CatalogueError> {
-    let mut statement =
-        connection.prepare(&format!("SELECT {COLUMNS} FROM takes WHERE {SEEN} AND {condition}"))?;
+    let mut statement = connection.prepare(&format!(
+        "SELECT {COLUMNS} FROM takes WHERE {SEEN} AND {condition}"
+    ))?;
     let rows = statement.query_map(values, raw)?;
     rows.map(|it| it?.parse()).collect()
 }

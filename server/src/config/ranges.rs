@@ -24,7 +24,12 @@ fn general(config: &Config) -> Vec<Range> {
             1,
             8_760,
         ),
-        ("retention.takes_days", config.retention.takes_days, 0, 36_500),
+        (
+            "retention.takes_days",
+            config.retention.takes_days,
+            0,
+            36_500,
+        ),
     ]
 }
 

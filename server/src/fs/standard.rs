@@ -33,10 +33,7 @@ impl Fs for StdFs {
     }
 
     fn create(&self, file: &Path) -> io::Result<Box<dyn AppendFile>> {
-        let new = private_files()
-            .append(true)
-            .create_new(true)
-            .open(file)?;
+        let new = private_files().append(true).create_new(true).open(file)?;
         Ok(Box::new(Growing(new)))
     }
 

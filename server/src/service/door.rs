@@ -202,8 +202,15 @@ pub async fn report_disk(reporter: HealthReporter, mut readiness: Readiness) {
         }
         let room = *readiness.disk.borrow();
         if !room.is_enough() {
-            let DiskRoom { free_bytes, needed_bytes } = room;
-            tracing::warn!(free_bytes, needed_bytes, "the disk has no room for new takes");
+            let DiskRoom {
+                free_bytes,
+                needed_bytes,
+            } = room;
+            tracing::warn!(
+                free_bytes,
+                needed_bytes,
+                "the disk has no room for new takes"
+            );
         }
         report(&reporter, &readiness).await;
     }

@@ -9,6 +9,7 @@ mod connection;
 mod frames;
 mod http1_framing;
 mod inbound;
+mod incoming;
 mod lingering;
 mod liveness;
 mod open_connection;
@@ -32,6 +33,7 @@ use connection::Connections;
 use tls::Tls;
 
 pub use frames::ControlFrame;
+pub use incoming::{ByteStream, Incoming};
 pub use open_connection::OpenConnection;
 pub use tls::PeerCertificate;
 
@@ -60,8 +62,8 @@ pub fn bind(listen: SocketAddr, transport: &Transport) -> io::Result<TcpListener
 
 /// What the accept loop needs.
 pub struct Listener {
-    /// The bound port.
-    pub listener: TcpListener,
+    /// Where connections come from.
+    pub incoming: Incoming,
     /// What answers every request.
     pub router: Router,
     /// What is shown and asked for first; none: plain text is spoken.
@@ -78,14 +80,14 @@ pub struct Listener {
 
 impl Listener {
     /// Accepts until the server closes.
-    pub async fn run(self, config: Config) {
+    pub async fn run(mut self, config: Config) {
         let admission = Admission::new(&config.limits, self.metrics.clone());
         let connections = Connections::new(&self, &config);
         let mut pause = BACK_OFF[0];
         loop {
             let accepted = tokio::select! {
                 () = self.phases.closing.cancelled() => return,
-                accepted = self.listener.accept() => accepted,
+                accepted = self.incoming.accept() => accepted,
             };
             match accepted {
                 Ok((stream, peer)) => {

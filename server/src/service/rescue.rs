@@ -23,7 +23,11 @@ const OPEN: [&str; 6] = [
 const WORK: [&str; 2] = ["/frontalis.v1.", "/api/"];
 
 /// Refuses what would change something, or show less than there is.
-pub async fn read_only(State(readiness): State<Readiness>, request: Request, next: Next) -> Response {
+pub async fn read_only(
+    State(readiness): State<Readiness>,
+    request: Request,
+    next: Next,
+) -> Response {
     match readiness.check_rescue() {
         Err(refused) if !is_open(&request) => refuse_in_kind(&request, refused),
         _ => next.run(request).await,

@@ -34,7 +34,10 @@ impl Retention {
     /// A round an hour, until `drained`.
     pub async fn run(self, drained: CancellationToken) {
         match self.takes {
-            Some(kept) => tracing::info!(days = kept.as_secs() / DAY.as_secs(), "takes are erased when they are older"),
+            Some(kept) => tracing::info!(
+                days = kept.as_secs() / DAY.as_secs(),
+                "takes are erased when they are older"
+            ),
             None => tracing::info!("takes are kept until somebody erases them"),
         }
         let mut rounds = tokio::time::interval(ROUND_EVERY);
@@ -62,7 +65,11 @@ impl Retention {
         let now_nanos = running_nanos.saturating_add(erasure.clock.unix_offset_nanos());
         let noted_nanos = erasure.store.noted_time().await?;
         if !is_believed(now_nanos, noted_nanos, running_nanos) {
-            tracing::warn!(now_nanos, noted_nanos, "the wall clock jumped, takes are not erased by age yet");
+            tracing::warn!(
+                now_nanos,
+                noted_nanos,
+                "the wall clock jumped, takes are not erased by age yet"
+            );
             return Ok(());
         }
         erasure.store.note_time(now_nanos).await?;
@@ -70,9 +77,15 @@ impl Retention {
             return Ok(());
         };
         let before_nanos = now_nanos.saturating_sub(nanos(kept));
-        let old = erasure.store.takes_before(EARLIEST_NANOS..before_nanos).await?;
+        let old = erasure
+            .store
+            .takes_before(EARLIEST_NANOS..before_nanos)
+            .await?;
         if !old.is_empty() {
-            tracing::info!(n_takes = old.len(), "takes are older than they are kept for");
+            tracing::info!(
+                n_takes = old.len(),
+                "takes are older than they are kept for"
+            );
             erasure.expired(&old).await?;
         }
         Ok(())

@@ -15,6 +15,7 @@ use super::{grpc::status::refuse, readiness::disk_low};
 use crate::{
     catalogue::{CatalogueError, Store, TakeContent, TakeFilter, TakeLabels, TakeRow, TakeState},
     clock::ServerClock,
+    executor::Threads,
     fs::Fs,
     name::{SessionId, TakeId},
     session::{SessionHandle, SessionRegistry},
@@ -44,23 +45,29 @@ pub use recovery::LeftOver;
 use recovery::RecoveryProgress;
 
 impl Takes {
-    /// Joins the recorder into `dir` with the catalogue.
+    /// Joins the recorder into `dir`, which is made unless it exists, with the catalogue.
+    ///
+    /// # Errors
+    ///
+    /// That there can be no such directory.
     pub fn new(
+        threads: Threads,
         store: Store,
         registry: SessionRegistry,
         clock: ServerClock,
         fs: Arc<dyn Fs>,
         dir: PathBuf,
-    ) -> Self {
-        Self {
-            recorder: Recorder::new(Arc::clone(&fs), dir.clone(), clock),
+    ) -> io::Result<Self> {
+        fs.create_dir_all(&dir)?;
+        Ok(Self {
+            recorder: Recorder::new(threads, Arc::clone(&fs), dir.clone(), clock),
             store,
             registry,
             clock,
             fs,
             dir,
             recovery: RecoveryProgress::default(),
-        }
+        })
     }
 
     /// What records.

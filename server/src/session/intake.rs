@@ -18,9 +18,10 @@ use super::{
     publication::{Claim, Grant, Ingest, Offer, PublishEnd, Wait},
     queue::{MAX_WAITING_COMMANDS, WaitingFrame, Work, WorkQueue},
     rate::{Admission, RateLimit, RateMeter},
-    recording::{Recorded, RecordedFrame, RecordedSource, RecordingFeed, RecordingTap, recording},
+    recording::{Recorded, RecordedSource, RecordingFeed},
     settings::StreamShape,
     status::SessionStatus,
+    tape::Tape,
 };
 use crate::{
     clock::{ServerClock, nanos},
@@ -121,16 +122,11 @@ pub(super) struct Intake {
     meter: RateMeter,
     counts: IntakeCounts,
     closed: Option<Closed>,
-    /// Who publishes, for a recording that begins later.
-    source: Option<RecordedSource>,
-    recording: Option<RecordingTap>,
-    /// Whether a recording is over of which not all is on stable storage yet.
-    is_settling: bool,
+    tape: Tape,
     /// Of whoever published last.
     last_mailbox: Weak<Mailbox>,
     /// No earlier may somebody take over again.
     next_takeover_nanos: i64,
-    durable_through: u64,
     pub(super) publisher_timeout: Duration,
 }
 
@@ -147,12 +143,9 @@ impl Intake {
             meter: RateMeter::default(),
             counts: IntakeCounts::default(),
             closed: None,
-            source: None,
-            recording: None,
-            is_settling: false,
+            tape: Tape::default(),
             last_mailbox: Weak::new(),
             next_takeover_nanos: i64::MIN,
-            durable_through: 0,
             publisher_timeout,
         }
     }
@@ -160,43 +153,34 @@ impl Intake {
     /// Hands on all that comes in from now on; an earlier recording ends.
     pub(super) fn record(&mut self) -> Result<RecordingFeed, SessionError> {
         self.check_open()?;
-        let (tap, feed) = recording(self.order.next_expected().max(1));
-        if let Some(source) = &self.source {
-            tap.record(Recorded::Source(source.clone()));
-        }
-        self.durable_through = self.order.accepted_through();
-        self.recording = Some(tap);
-        Ok(feed)
+        let next_frame = self.order.next_expected().max(1);
+        Ok(self.tape.start(next_frame, self.accepted_through()))
     }
 
     /// Hands on nothing more. Until [`Self::recording_settled`] the publisher still waits for stable storage.
     pub(super) fn stop_recording(&mut self) {
-        self.is_settling |= self.recording.take().is_some();
+        self.tape.stop();
         self.wake_publisher();
     }
 
     /// What was handed on is on stable storage, or never will be.
     pub(super) fn recording_settled(&mut self) {
-        self.is_settling = false;
+        self.tape.settled();
         self.wake_publisher();
     }
 
     pub(super) fn is_recorded(&self) -> bool {
-        self.recording.is_some() || self.is_settling
+        self.tape.is_recorded()
     }
 
     /// Every frame up to this one is on stable storage.
     pub(super) fn set_durable_through(&mut self, number: u64) {
-        self.durable_through = self.durable_through.max(number);
+        self.tape.set_durable_through(number);
         self.wake_publisher();
     }
 
     pub(super) fn durable_through(&self) -> u64 {
-        if self.is_recorded() {
-            self.durable_through
-        } else {
-            0
-        }
+        self.tape.durable_through()
     }
 
     /// Whoever published last may wait for room, or, its frames given, for stable storage.
@@ -209,11 +193,9 @@ impl Intake {
         }
     }
 
-    /// Hands on a request where it takes effect among the frames.
+    /// Hands on what stands among the frames where it takes effect.
     pub(super) fn note(&self, recorded: Recorded) {
-        if let Some(tap) = &self.recording {
-            tap.record(recorded);
-        }
+        self.tape.note(recorded);
     }
 
     /// Whether a publisher may start.
@@ -276,14 +258,12 @@ impl Intake {
             n_rejects_in_a_row: 0,
             waits_for_space: false,
         });
-        let source = RecordedSource {
+        self.tape.source(RecordedSource {
             publisher: grant.claim.publisher.clone(),
             epoch: grant.epoch,
             shape: shape.clone(),
             rate_hz: grant.rate_hz,
-        };
-        self.note(Recorded::Source(source.clone()));
-        self.source = Some(source);
+        });
         self.queue.push_command(Command::Source(Source {
             shape,
             rate_hz: grant.rate_hz,
@@ -328,7 +308,7 @@ impl Intake {
             }
             // A late frame is no mistake of the publisher: it does not count towards the limit in a row.
             Verdict::Late => {
-                self.note_frame(&frame, now_nanos, true);
+                self.tape.frame(&frame, now_nanos, true);
                 self.counts.late += 1;
                 self.counts.rejected += 1;
                 let detail = format!("frame {} was already passed", self.order.accepted_through());
@@ -356,7 +336,7 @@ impl Intake {
         let Some(lease) = &mut self.lease else {
             return Err(self.lost());
         };
-        if self.recording.as_ref().is_some_and(|it| !it.has_room()) {
+        if !self.tape.has_room() {
             // What cannot be recorded is not taken, however live it is: an acknowledged frame is in the take.
             lease.waits_for_space = true;
             return Ok(Offer::Wait(frame, Wait::Space));
@@ -411,23 +391,12 @@ impl Intake {
         if let Some(lease) = &mut self.lease {
             lease.n_rejects_in_a_row = 0;
         }
-        self.note_frame(&frame, now_nanos, false);
+        self.tape.frame(&frame, now_nanos, false);
         self.queue.push_frame(WaitingFrame {
             frame,
             gaps_before,
             received_nanos: now_nanos,
         });
-    }
-
-    fn note_frame(&self, frame: &IncomingFrame, received_nanos: i64, is_late: bool) {
-        if let Some(tap) = &self.recording {
-            tap.record(Recorded::Frame(RecordedFrame {
-                number: frame.number,
-                received_nanos,
-                sent: frame.sent.clone(),
-                is_late,
-            }));
-        }
     }
 
     /// Counts a frame that cannot be used; ends the publication after too many in a row.

@@ -156,12 +156,7 @@ fn read_other(file: &mut dyn ReadFile, size: u64) -> Result<Head, ScanError> {
 }
 
 /// What a record says that stands at `offset`.
-fn form(
-    file: &mut dyn ReadFile,
-    offset: u64,
-    body: &[u8],
-    size: u64,
-) -> Result<Form, ScanError> {
+fn form(file: &mut dyn ReadFile, offset: u64, body: &[u8], size: u64) -> Result<Form, ScanError> {
     let Ok(mcap::records::Record::Metadata(said)) = mcap::parse_record(METADATA, body) else {
         return Err(ScanError::Head);
     };
@@ -267,7 +262,10 @@ pub(super) mod tests {
     #[test]
     fn h5_a_newer_format_and_less_than_a_head_are_told_apart() {
         let newer = read_bytes(&newer_head()).unwrap_err();
-        assert!(matches!(newer, ScanError::NewerFormat { found: 2 }), "{newer}");
+        assert!(
+            matches!(newer, ScanError::NewerFormat { found: 2 }),
+            "{newer}"
+        );
         let head = growing_head().unwrap();
         for n_bytes in [0, 1, 8, head.len() - 1] {
             let begun = read_bytes(&head[..n_bytes]).unwrap_err();

@@ -26,7 +26,7 @@ use super::{
 };
 use crate::{
     clock::ServerClock,
-    executor::Workers,
+    executor::{Threads, Workers},
     fs::Fs,
     hub::{Delivery, StartAt, SubscribeError, SubscribeSpec},
     name::{SessionId, TakeId},
@@ -117,13 +117,13 @@ struct Recording {
 
 impl Recorder {
     /// Records into `dir`, which exists.
-    pub fn new(fs: Arc<dyn Fs>, dir: PathBuf, clock: ServerClock) -> Self {
+    pub fn new(threads: Threads, fs: Arc<dyn Fs>, dir: PathBuf, clock: ServerClock) -> Self {
         let inner = Inner {
             fs,
             dir,
             clock,
-            flushes: Workers::pool(FLUSHES_AT_ONCE),
-            rewrites: Workers::pool(REWRITES_AT_ONCE),
+            flushes: threads.workers(FLUSHES_AT_ONCE),
+            rewrites: threads.workers(REWRITES_AT_ONCE),
             dirty: Arc::default(),
             tasks: TaskTracker::new(),
             ingest: Arc::default(),
@@ -326,7 +326,10 @@ impl Recorder {
 
     /// A failure that came after the last step leaves the final form.
     async fn replaced(&self, id: &TakeId) -> Option<Rewritten> {
-        let (fs, file) = (Arc::clone(&self.inner.fs), self.inner.dir.join(file_name(id)));
+        let (fs, file) = (
+            Arc::clone(&self.inner.fs),
+            self.inner.dir.join(file_name(id)),
+        );
         self.rework(move || finished(&*fs, &file).ok()).await
     }
 

@@ -35,7 +35,10 @@ pub enum ScanError {
     #[error("the file does not begin as a take does, or its beginning is damaged")]
     Head,
     /// A newer server wrote it; it is left as it is.
-    #[error("the file has format {found} of takes, this server knows formats up to {}", head::FORMAT)]
+    #[error(
+        "the file has format {found} of takes, this server knows formats up to {}",
+        head::FORMAT
+    )]
     NewerFormat {
         /// The format of the file.
         found: u32,

@@ -14,7 +14,10 @@ use frontalis_server::{
     catalogue::{Catalogue, TakeContent, TakeLabels, TakeRow, TakeState as StoredState},
     name::{ActorId, SessionId, TakeId},
 };
-use harness::{Problem, Publisher, RecordedTake, TestPerformance, TestServer, assert_eventually, http_get, program};
+use harness::{
+    Problem, Publisher, RecordedTake, TestPerformance, TestServer, assert_eventually, http_get,
+    program,
+};
 use tonic::Code;
 
 use crate::takes::{SESSION, export, get, start, stop};
@@ -125,7 +128,10 @@ async fn h7_with_a_damaged_catalogue_the_takes_are_shown_and_nothing_is_changed(
         .await;
     for (take, n_frames) in [(&closed, 40), (&open, 41)] {
         let found = get(&server, &take.name).await.unwrap();
-        assert_eq!((found.state(), found.n_frames), (TakeState::Closed, n_frames));
+        assert_eq!(
+            (found.state(), found.n_frames),
+            (TakeState::Closed, n_frames)
+        );
         assert_eq!(found.slate, "12A");
         let numbers = recorded(&server, &found).await.frame_numbers();
         assert_eq!(numbers.len() as u64, n_frames);
@@ -133,7 +139,10 @@ async fn h7_with_a_damaged_catalogue_the_takes_are_shown_and_nothing_is_changed(
     assert_eq!(list(&server).await.len(), 2);
     let refused = server.create_session("more", "actors/reference").await;
     let refused = Problem::of(&refused.unwrap_err());
-    assert_eq!((refused.code, refused.reason.as_str()), (Code::Unavailable, "RESCUE_MODE"));
+    assert_eq!(
+        (refused.code, refused.reason.as_str()),
+        (Code::Unavailable, "RESCUE_MODE")
+    );
     let request = frontalis_proto::v1::DeleteTakeRequest {
         name: open.name.clone(),
     };
@@ -167,7 +176,8 @@ fn h10_a_directory_that_cannot_be_written_is_refused_with_whose_it_is() {
     use std::os::unix::fs::PermissionsExt as _;
     let parent = tempfile::tempdir().unwrap();
     // Readable by everybody, so that what is refused is the writing.
-    let open = |path: &Path, mode| fs::set_permissions(path, fs::Permissions::from_mode(mode)).unwrap();
+    let open =
+        |path: &Path, mode| fs::set_permissions(path, fs::Permissions::from_mode(mode)).unwrap();
     open(parent.path(), 0o755);
     let folder = parent.path().join("data");
     fs::create_dir(&folder).unwrap();
@@ -177,7 +187,10 @@ fn h10_a_directory_that_cannot_be_written_is_refused_with_whose_it_is() {
     fs::copy(program("frontalis-server"), &copy).unwrap();
     let said = refused_start(&copy, &folder);
     assert!(said.contains(folder.to_str().unwrap()), "{said}");
-    assert!(said.contains("mode 0555; this server runs as user"), "{said}");
+    assert!(
+        said.contains("mode 0555; this server runs as user"),
+        "{said}"
+    );
 }
 
 /// What stands before the first chunk of a growing take.

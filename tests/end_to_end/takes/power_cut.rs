@@ -7,7 +7,6 @@ use std::{
 };
 
 use frontalis_server::{
-    TakeFiles,
     fs::{Fs, MemFs},
     take::{Belonging, Recovered, recover},
 };
@@ -44,7 +43,9 @@ fn torn(rest: &[u8], random: &mut Pcg64) -> Vec<u8> {
         match random.random_range(0..3) {
             0 => {}
             1 => sector.fill(0),
-            _ => sector.iter_mut().for_each(|it| *it = random.random_range(0..=255)),
+            _ => sector
+                .iter_mut()
+                .for_each(|it| *it = random.random_range(0..=255)),
         }
     }
     left
@@ -72,14 +73,17 @@ fn n_lost(disk: &MemFs, name: &str, performance: &TestPerformance, durable_throu
     for frame in &frames {
         assert_eq!(*frame, performance.frame(frame.number), "never a wrong one");
     }
-    let in_order = frames.iter().zip(1..).take_while(|(frame, number)| frame.number == *number);
+    let in_order = frames
+        .iter()
+        .zip(1..)
+        .take_while(|(frame, number)| frame.number == *number);
     durable_through.saturating_sub(in_order.count() as u64)
 }
 
 /// Durable frames that were lost over all cuts, and how many there were.
 async fn lost_over_all_cuts(disk: MemFs) -> (u64, u64) {
     let files: Arc<dyn Fs> = Arc::new(disk.clone());
-    let server = TestServer::start_on(TakeFiles::on(files)).await;
+    let server = TestServer::start_on(files).await;
     server.import_reference().await;
     let performance = TestPerformance::reference();
     let (mut n_all_lost, mut n_all_durable) = (0, 0);
@@ -93,7 +97,9 @@ async fn lost_over_all_cuts(disk: MemFs) -> (u64, u64) {
         let mut sent = 0;
         for cut in 0..CUTS_A_TAKE {
             let more = random.random_range(1..8);
-            publisher.send(performance.frames(sent + 1..=sent + more)).await;
+            publisher
+                .send(performance.frames(sent + 1..=sent + more))
+                .await;
             sent += more;
             // Some cuts come while commits are on their way, some after they are acknowledged.
             if random.random_range(0..2) == 0 {

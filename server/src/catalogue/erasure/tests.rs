@@ -96,7 +96,9 @@ fn no_byte_of_an_erased_row_is_left_in_the_files() {
         let file = entry.unwrap().path();
         if file.is_file() {
             let bytes = std::fs::read(&file).unwrap();
-            let found = bytes.windows(PLANTED.len()).any(|it| it == PLANTED.as_bytes());
+            let found = bytes
+                .windows(PLANTED.len())
+                .any(|it| it == PLANTED.as_bytes());
             assert!(!found, "{}", file.display());
         }
     }

@@ -131,7 +131,8 @@ fn check_ready(readiness: &Readiness, query: &str) -> Result<(), Problem> {
         "" | "frontalis.v1.CaptureService" => readiness.check(),
         RECORDING => readiness.check_recording(),
         _ => {
-            let detail = "service must be empty, frontalis.v1.CaptureService or frontalis.v1.TakeService";
+            let detail =
+                "service must be empty, frontalis.v1.CaptureService or frontalis.v1.TakeService";
             let problem = Problem::new(StatusCode::BAD_REQUEST, "QUERY", detail);
             return Err(problem.with("field", "service"));
         }

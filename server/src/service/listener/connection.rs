@@ -10,7 +10,6 @@ use hyper_util::{
 };
 use tokio::{
     io::{AsyncRead, AsyncWrite},
-    net::TcpStream,
     time::timeout,
 };
 use tokio_util::task::TaskTracker;
@@ -22,6 +21,7 @@ use super::{
     admission::Permit,
     frames::ControlFrame,
     inbound::{Inbound, Upgraded},
+    incoming::Accepted,
     lingering::Lingering,
     liveness::Liveness,
     tls::{Handshake, Tls},
@@ -91,18 +91,29 @@ impl Connections {
     }
 
     /// Serves a connection in a task of its own.
-    pub(super) fn spawn(&self, stream: TcpStream, peer: SocketAddr, permit: Permit) {
-        if let Err(error) = self.liveness.set(&stream) {
-            tracing::debug!(%error, "a connection was gone at once");
-            return;
-        }
+    pub(super) fn spawn(&self, accepted: Accepted, peer: SocketAddr, permit: Permit) {
         let about = About {
-            local: stream.local_addr().ok(),
+            local: None,
             peer,
             certificate: None,
             open: OpenConnection::new(permit, self.tasks.token()),
         };
-        let stream = self.liveness.watch(stream);
+        match accepted {
+            Accepted::Stream(stream) => self.spawn_stream(stream, about),
+            Accepted::Socket(socket) => match self.liveness.set(&socket) {
+                Ok(()) => {
+                    let local = socket.local_addr().ok();
+                    self.spawn_stream(self.liveness.watch(socket), About { local, ..about });
+                }
+                Err(error) => tracing::debug!(%error, "a connection was gone at once"),
+            },
+        }
+    }
+
+    fn spawn_stream<S>(&self, stream: S, about: About)
+    where
+        S: AsyncRead + AsyncWrite + Unpin + Send + 'static,
+    {
         let connections = self.clone();
         self.tasks.spawn(async move {
             match &connections.tls {

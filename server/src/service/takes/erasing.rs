@@ -5,12 +5,7 @@ use std::{io, sync::Arc};
 use tonic::Status;
 
 use super::Takes;
-use crate::{
-    catalogue::CatalogueError,
-    fs::TEMPORARY_SUFFIX,
-    name::TakeId,
-    take::file_name,
-};
+use crate::{catalogue::CatalogueError, fs::TEMPORARY_SUFFIX, name::TakeId, take::file_name};
 
 impl Takes {
     /// Erases a take.

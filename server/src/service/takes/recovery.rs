@@ -90,7 +90,10 @@ impl Takes {
         self.recovery.step();
         if let Err(error) = self.recover_rows().await {
             let error = &error as &dyn std::error::Error;
-            tracing::error!(error, "not every take could be recovered; the next start tries again");
+            tracing::error!(
+                error,
+                "not every take could be recovered; the next start tries again"
+            );
         }
         if let Err(error) = self.adopt_files(left.names).await {
             let error = &error as &dyn std::error::Error;
@@ -184,11 +187,7 @@ impl Takes {
             session: row.session.resource(),
             actor: row.actor.resource(),
         };
-        let (fs, dir, name) = (
-            Arc::clone(&self.fs),
-            self.dir.clone(),
-            file_name(&row.id),
-        );
+        let (fs, dir, name) = (Arc::clone(&self.fs), self.dir.clone(), file_name(&row.id));
         let work = move || recover(&*fs, &dir, &name, &wanted);
         let recovered = self.recorder.rework(work).await;
         let id = row.id.clone();
@@ -259,7 +258,9 @@ impl Takes {
             Ok(Some(row)) => {
                 tracing::warn!(take = %id, n_frames = row.content.n_frames, "a take without a row has one again");
             }
-            Ok(None) => tracing::warn!(take = %id, "the file of a take that had not begun was removed"),
+            Ok(None) => {
+                tracing::warn!(take = %id, "the file of a take that had not begun was removed")
+            }
             Err(error) => {
                 let error = &*error;
                 tracing::error!(take = %id, error, "a file without a row cannot be taken up, it is left as it is");
@@ -386,7 +387,10 @@ fn row_of(
 fn whole(row: TakeRow, found: &Rewritten) -> TakeRow {
     let last = i64::try_from(found.last_time_nanos).unwrap_or(i64::MAX);
     TakeRow {
-        stop_time_nanos: Some(row.stop_time_nanos.unwrap_or(last.max(row.start_time_nanos))),
+        stop_time_nanos: Some(
+            row.stop_time_nanos
+                .unwrap_or(last.max(row.start_time_nanos)),
+        ),
         content: TakeContent {
             first_frame: found.figures.first_frame,
             last_frame: found.figures.last_frame,

@@ -57,7 +57,8 @@ fn growing(of: &Belonging, n_frames: u64) -> Vec<u8> {
 
 fn with(bytes: &[u8]) -> MemFs {
     let fs = MemFs::default();
-    fs.write_and_sync(&Path::new(DIR).join(NAME), bytes).unwrap();
+    fs.write_and_sync(&Path::new(DIR).join(NAME), bytes)
+        .unwrap();
     fs
 }
 
@@ -165,7 +166,10 @@ fn h5_a_file_of_another_take_or_actor_or_of_a_newer_format_is_named_and_left_as_
 
 #[test]
 fn h6_an_empty_file_and_none_are_takes_that_never_began() {
-    assert!(matches!(recover_one(&MemFs::default()), Recovered::NeverBegun));
+    assert!(matches!(
+        recover_one(&MemFs::default()),
+        Recovered::NeverBegun
+    ));
     for n_bytes in [0, 1, 100] {
         let fs = with(&growing_head().unwrap()[..n_bytes]);
         assert!(matches!(recover_one(&fs), Recovered::NeverBegun));
@@ -199,7 +203,10 @@ fn a_survey_finds_the_same_and_changes_nothing() {
     let fs = with(&bytes);
     let file = Path::new(DIR).join(NAME);
     let found = survey(&fs, &file).unwrap();
-    assert_eq!((found.figures.n_frames, found.n_bytes), (5, bytes.len() as u64));
+    assert_eq!(
+        (found.figures.n_frames, found.n_bytes),
+        (5, bytes.len() as u64)
+    );
     assert_eq!(fs.read(&file).unwrap(), bytes);
     assert_eq!(header(&fs, &file).unwrap().unwrap().take, "takes/one");
 }

@@ -4,13 +4,15 @@
 use std::{io::ErrorKind, sync::Arc};
 
 use frontalis_proto::v1::TakeState;
-use frontalis_server::{
-    TakeFiles,
-    fs::{Fs, MemFs},
+use frontalis_server::fs::{Fs, MemFs};
+use harness::{
+    Problem, Publisher, RecordedTake, Subscriber, TestPerformance, TestServer, every_frame,
+    http_get,
 };
-use harness::{Problem, Publisher, RecordedTake, Subscriber, TestPerformance, TestServer, every_frame, http_get};
 use tonic::Code;
-use tonic_health::pb::{HealthCheckRequest, health_check_response::ServingStatus, health_client::HealthClient};
+use tonic_health::pb::{
+    HealthCheckRequest, health_check_response::ServingStatus, health_client::HealthClient,
+};
 
 use crate::takes::{SESSION, export, get, start, stop};
 
@@ -31,7 +33,7 @@ impl Stage {
     async fn start() -> Self {
         let disk = MemFs::default();
         let files: Arc<dyn Fs> = Arc::new(disk.clone());
-        let server = TestServer::start_on(TakeFiles::on(files)).await;
+        let server = TestServer::start_on(files).await;
         server.import_reference().await;
         let created = server.create_session("stage", "actors/reference").await;
         created.unwrap();
@@ -56,8 +58,13 @@ impl Stage {
         for _ in 0..2 {
             let first = self.n_frames + 1;
             self.n_frames += FRAMES / 2;
-            self.publisher.publish(self.performance.frames(first..=self.n_frames)).await;
-            self.subscriber.samples_through(self.n_frames).await.unwrap();
+            self.publisher
+                .publish(self.performance.frames(first..=self.n_frames))
+                .await;
+            self.subscriber
+                .samples_through(self.n_frames)
+                .await
+                .unwrap();
         }
     }
 
@@ -67,7 +74,10 @@ impl Stage {
             Ok(take) => take,
             Err(refused) => {
                 let refused = Problem::of(&refused);
-                assert!(["STORAGE", "DISK_LOW"].contains(&refused.reason.as_str()), "{refused:?}");
+                assert!(
+                    ["STORAGE", "DISK_LOW"].contains(&refused.reason.as_str()),
+                    "{refused:?}"
+                );
                 return None;
             }
         };
@@ -82,7 +92,10 @@ impl Stage {
         let expected: Vec<u64> = (first..).take(numbers.len()).collect();
         assert_eq!(numbers, expected, "{stopped:?}");
         let n_durable = (durable_through + 1).saturating_sub(first);
-        assert!(numbers.len() as u64 >= n_durable, "{n_durable} of {numbers:?}");
+        assert!(
+            numbers.len() as u64 >= n_durable,
+            "{n_durable} of {numbers:?}"
+        );
         Some(stopped)
     }
 }
@@ -113,7 +126,8 @@ async fn every_call_fails(stage: &mut Stage, kind: ErrorKind, lasts: bool, broke
 }
 
 #[tokio::test(flavor = "multi_thread", worker_threads = 2)]
-async fn h8_a_disk_that_is_full_at_any_call_costs_nothing_acknowledged_and_works_again_when_it_is_free() {
+async fn h8_a_disk_that_is_full_at_any_call_costs_nothing_acknowledged_and_works_again_when_it_is_free()
+ {
     let mut stage = Stage::start().await;
     let full = TakeState::TruncatedDiskFull;
     every_call_fails(&mut stage, ErrorKind::StorageFull, true, full).await;
@@ -138,13 +152,19 @@ async fn a_disk_that_is_almost_full_takes_no_new_take_and_says_so() {
     stage.disk.set_free_bytes(Some((1 << 30) - 1));
     let refused = start(&stage.server, SESSION, "").await.unwrap_err();
     let refused = Problem::of(&refused);
-    assert_eq!((refused.code, refused.reason.as_str()), (Code::ResourceExhausted, "DISK_LOW"));
+    assert_eq!(
+        (refused.code, refused.reason.as_str()),
+        (Code::ResourceExhausted, "DISK_LOW")
+    );
     stage.perform().await;
     let ready = async |service: &str| {
         let path = format!("/readyz?service={service}");
         http_get(&stage.server, &path).await.status.as_u16()
     };
-    assert_eq!((ready("").await, ready("frontalis.v1.TakeService").await), (200, 503));
+    assert_eq!(
+        (ready("").await, ready("frontalis.v1.TakeService").await),
+        (200, 503)
+    );
     let health = async || {
         let service = "frontalis.v1.TakeService".to_owned();
         let mut client = HealthClient::new(stage.server.channel().await);
