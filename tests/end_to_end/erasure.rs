@@ -31,7 +31,7 @@ const SESSION: &str = "sessions/anna-1";
 
 /// Coordinates of a frame as they stand in a file that grows.
 fn planted_positions() -> Vec<u8> {
-    let positions = &TestPerformance::reference().frame(25).positions;
+    let positions = &TestPerformance::reference().frame(65).positions;
     positions[..6]
         .iter()
         .flat_map(|it| it.to_le_bytes())

@@ -13,6 +13,7 @@ mod client_files;
 mod control_session;
 mod cost;
 mod doors;
+mod drains;
 mod eventually;
 mod http;
 mod issuer;
@@ -29,6 +30,8 @@ mod raw_grpc;
 pub mod raw_http2;
 mod real_time;
 mod recorded;
+mod recording_load;
+mod recovery_load;
 mod report;
 mod server;
 mod server_program;
@@ -45,6 +48,7 @@ pub use doors::{
     Closed, DoorCosts, Event, EventStream, GrpcWeb, LinePublisher, Received, SocketFrame,
     SocketFrames, StalledDoors, WebSocket,
 };
+pub use drains::{DrainProfile, DrainReport};
 pub use http::{HttpAnswer, http_get, http_send};
 pub use issuer::TestIssuer;
 pub use keys::{Bearer, Keys, now};
@@ -58,6 +62,8 @@ pub use protection::Protection;
 pub use publisher::{PublishReport, Publisher};
 pub use raw_grpc::{RawAnswer, RawCall, RawConnection, encoded, framed, prefixed};
 pub use recorded::RecordedTake;
+pub use recording_load::{RecordingProfile, RecordingReport};
+pub use recovery_load::{RecoveryProfile, RecoveryReport, head_of, many_takes};
 pub use report::write_section;
 pub use server::{TestChannel, TestServer};
 pub use server_program::ServerProgram;

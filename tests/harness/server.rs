@@ -44,6 +44,27 @@ pub struct TestServer {
     tls: Option<TestTls>,
 }
 
+/// A program that is gone, and its folder.
+pub struct StoppedServer {
+    config: Config,
+    folder: TempDir,
+}
+
+impl StoppedServer {
+    /// Starts another on the same folder.
+    pub async fn start_again(self) -> TestServer {
+        let file = self.folder.path().join("frontalis.toml");
+        let started = tokio::task::spawn_blocking(move || ServerProgram::start(&file));
+        TestServer {
+            running: Running::Program(Box::new(started.await.unwrap())),
+            config: self.config,
+            folder: self.folder,
+            keys: None,
+            tls: None,
+        }
+    }
+}
+
 /// In this process, or a program of its own.
 enum Running {
     Inside {
@@ -292,6 +313,23 @@ impl TestServer {
     /// A client of its takes.
     pub async fn takes(&self) -> TakeServiceClient<TestChannel> {
         TakeServiceClient::new(self.channel().await)
+    }
+
+    /// Drains the program and waits until it is gone.
+    ///
+    /// # Panics
+    ///
+    /// When it is no program of its own, or something had to be cut.
+    pub async fn terminate(self) -> StoppedServer {
+        self.begin_drain();
+        let Running::Program(mut program) = self.running else {
+            panic!("this server is no program of its own");
+        };
+        assert!(program.wait().await, "the drain took longer than its grace");
+        StoppedServer {
+            config: self.config,
+            folder: self.folder,
+        }
     }
 
     /// Drains the program and waits for its exit code.

@@ -11,6 +11,8 @@ use sha2::{Digest as _, Sha256};
 use tokio::sync::watch;
 use tonic::Status;
 
+pub use self::recovery::LeftOver;
+use self::recovery::RecoveryProgress;
 use super::{grpc::status::refuse, readiness::disk_low};
 use crate::{
     catalogue::{CatalogueError, Store, TakeContent, TakeFilter, TakeLabels, TakeRow, TakeState},
@@ -40,9 +42,6 @@ pub struct Takes {
     dir: PathBuf,
     recovery: RecoveryProgress,
 }
-
-pub use recovery::LeftOver;
-use recovery::RecoveryProgress;
 
 impl Takes {
     /// Joins the recorder into `dir`, which is made unless it exists, with the catalogue.

@@ -198,14 +198,31 @@ impl Intake {
         self.tape.note(recorded);
     }
 
+    /// Whether a publisher may start now: as [`Self::check_claim`] says, and whoever pushes another out in turn.
+    pub(super) fn admit(&mut self, claim: &Claim, now_nanos: i64) -> Result<(), SessionError> {
+        self.check_claim(claim, now_nanos)?;
+        if self.lease_of_another(claim, now_nanos).is_none() {
+            return Ok(());
+        }
+        let left_nanos = self.next_takeover_nanos.saturating_sub(now_nanos);
+        if left_nanos > 0 {
+            let retry_after = Duration::from_nanos(left_nanos.unsigned_abs());
+            return Err(SessionError::TakeoverRate { retry_after });
+        }
+        self.next_takeover_nanos = now_nanos.saturating_add(nanos(TAKEOVER_EVERY));
+        Ok(())
+    }
+
+    fn lease_of_another(&self, claim: &Claim, now_nanos: i64) -> Option<&Lease> {
+        let lease = self.lease.as_ref()?;
+        let is_in_force = now_nanos < lease.expires_nanos;
+        (is_in_force && lease.owner != Owner::of(claim)).then_some(lease)
+    }
+
     /// Whether a publisher may start.
     pub(super) fn check_claim(&self, claim: &Claim, now_nanos: i64) -> Result<(), SessionError> {
         self.check_open()?;
-        let in_force = self
-            .lease
-            .as_ref()
-            .filter(|it| now_nanos < it.expires_nanos);
-        let Some(lease) = in_force.filter(|it| it.owner != Owner::of(claim)) else {
+        let Some(lease) = self.lease_of_another(claim, now_nanos) else {
             return Ok(());
         };
         if !claim.takeover {
@@ -217,11 +234,6 @@ impl Intake {
         }
         if lease.owner.principal != claim.principal && !claim.outranks {
             return Err(SessionError::OwnedByAnother);
-        }
-        let left_nanos = self.next_takeover_nanos.saturating_sub(now_nanos);
-        if left_nanos > 0 {
-            let retry_after = Duration::from_nanos(left_nanos.unsigned_abs());
-            return Err(SessionError::TakeoverRate { retry_after });
         }
         Ok(())
     }
@@ -241,9 +253,6 @@ impl Intake {
             });
         }
         self.check_room_for_a_command()?;
-        if grant.claim.takeover {
-            self.next_takeover_nanos = now_nanos.saturating_add(nanos(TAKEOVER_EVERY));
-        }
         self.fence(grant.epoch);
         self.newest_epoch = grant.epoch;
         let owner = Owner::of(&grant.claim);

@@ -10,13 +10,9 @@ use std::{
 };
 
 use frontalis_proto::v1::{ListTakesRequest, Take, TakeState};
-use frontalis_server::{
-    catalogue::{Catalogue, TakeContent, TakeLabels, TakeRow, TakeState as StoredState},
-    name::{ActorId, SessionId, TakeId},
-};
 use harness::{
-    Problem, Publisher, RecordedTake, TestPerformance, TestServer, assert_eventually, http_get,
-    program,
+    Problem, Publisher, RecordedTake, TestPerformance, TestServer, assert_eventually, head_of,
+    http_get, many_takes, program,
 };
 use tonic::Code;
 
@@ -193,45 +189,6 @@ fn h10_a_directory_that_cannot_be_written_is_refused_with_whose_it_is() {
     );
 }
 
-/// What stands before the first chunk of a growing take.
-fn head_of(file: &[u8]) -> &[u8] {
-    const CHUNK: u8 = 0x06;
-    let mut end = mcap::MAGIC.len();
-    while file[end] != CHUNK {
-        let length = u64::from_le_bytes(file[end + 1..end + 9].try_into().unwrap());
-        end += 9 + usize::try_from(length).unwrap();
-    }
-    &file[..end]
-}
-
-/// Takes in the directory of a catalogue, the first of which a crash left open before their first commit.
-fn many_takes(folder: &Path, head: &[u8], n_takes: usize, n_open: usize) {
-    let row = |number: usize| TakeRow {
-        id: TakeId::parse(&format!("stage-{number:08}")).unwrap(),
-        session: SessionId::parse("stage").unwrap(),
-        actor: ActorId::parse("reference").unwrap(),
-        actor_revision: 1,
-        labels: TakeLabels {
-            number: 1,
-            ..TakeLabels::default()
-        },
-        start_time_nanos: 1,
-        stop_time_nanos: (number >= n_open).then_some(2),
-        content: TakeContent::default(),
-        state: if number < n_open {
-            StoredState::Recording
-        } else {
-            StoredState::Closed
-        },
-        recovered: false,
-    };
-    let rows: Vec<_> = (0..n_takes).map(row).collect();
-    Catalogue::open(folder).unwrap().add_takes(&rows).unwrap();
-    for row in &rows[..n_open] {
-        fs::write(folder.join("takes").join(format!("{}.mcap", row.id)), head).unwrap();
-    }
-}
-
 /// `make bench-recovery` has 100,000, and 10,000 of them open.
 const N_TAKES: usize = 2_000;
 const N_OPEN: usize = 100;
@@ -247,9 +204,9 @@ async fn h12_many_takes_are_recovered_behind_a_server_that_works() {
     // Whatever is still ahead, a new take is recorded.
     let new = record(&server, 30).await;
     assert_eq!(recorded(&server, &new).await.frame_numbers().len(), 30);
-    let last = format!("takes/stage-{:08}", N_OPEN - 1);
+    let last = format!("takes/a-{:08}", N_OPEN - 1);
     assert_eventually!(get(&server, &last).await.unwrap().state() == TakeState::Closed);
-    let first = get(&server, "takes/stage-00000000").await.unwrap();
+    let first = get(&server, "takes/a-00000000").await.unwrap();
     assert!(first.recovered);
     assert_eq!((first.state(), first.n_frames), (TakeState::Closed, 0));
 }
