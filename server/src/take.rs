@@ -5,6 +5,7 @@
 
 mod channel;
 mod chunk;
+mod disk_room;
 mod events;
 mod export;
 mod figures;
@@ -12,10 +13,12 @@ mod final_form;
 mod finished;
 mod frame_lookup;
 mod growth;
+mod head;
 mod open_take;
 mod places;
 mod read;
 mod recorder;
+mod recovery;
 mod resolve;
 mod rewrite;
 mod samples;
@@ -24,6 +27,7 @@ mod scribe;
 mod stored;
 
 pub use channel::Channel;
+pub use disk_room::DiskRoom;
 pub use export::{Export, ExportError, ExportSource, Step};
 pub use figures::TakeFigures;
 pub use frame_lookup::FrameLookup;
@@ -31,6 +35,7 @@ pub use growth::Growth;
 pub use open_take::{Condition, file_name};
 pub use read::{TakeReader, TakeRecord};
 pub use recorder::{EndedTake, Recorder, StartError, TakeUnderWay};
+pub use recovery::{Belonging, Recovered, final_form, header, recover, survey};
 pub use resolve::{Advance, Resolve, ResolveError, ResolveTarget, Resolved, TakeToResolve};
 pub use rewrite::{Rewritten, TakeFileError};
 pub use samples::{SampleReader, SampleSpan, StoredEntry};

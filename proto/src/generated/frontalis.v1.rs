@@ -474,8 +474,12 @@ impl ::prost::Name for DeleteActorRequest {
         "/frontalis.v1.DeleteActorRequest".into()
     }
 }
-#[derive(Clone, Copy, PartialEq, Eq, Hash, ::prost::Message)]
-pub struct DeleteActorResponse {}
+#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct DeleteActorResponse {
+    /// with `with_takes` only
+    #[prost(message, optional, tag = "1")]
+    pub receipt: ::core::option::Option<ErasureReceipt>,
+}
 impl ::prost::Name for DeleteActorResponse {
     const NAME: &'static str = "DeleteActorResponse";
     const PACKAGE: &'static str = "frontalis.v1";
@@ -484,6 +488,34 @@ impl ::prost::Name for DeleteActorResponse {
     }
     fn type_url() -> ::prost::alloc::string::String {
         "/frontalis.v1.DeleteActorResponse".into()
+    }
+}
+/// What was erased of a person. When it is given, none of it is left in the server's data directory, but for the ids in the
+/// audit log.
+#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct ErasureReceipt {
+    #[prost(string, tag = "1")]
+    pub actor: ::prost::alloc::string::String,
+    #[prost(message, optional, tag = "2")]
+    pub erase_time: ::core::option::Option<crate::Timestamp>,
+    #[prost(uint64, tag = "3")]
+    pub n_revisions: u64,
+    #[prost(uint64, tag = "4")]
+    pub n_sessions: u64,
+    #[prost(uint64, tag = "5")]
+    pub n_takes: u64,
+    /// of packages and of takes
+    #[prost(uint64, tag = "6")]
+    pub n_bytes: u64,
+}
+impl ::prost::Name for ErasureReceipt {
+    const NAME: &'static str = "ErasureReceipt";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.ErasureReceipt".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.ErasureReceipt".into()
     }
 }
 #[derive(Clone, PartialEq, ::prost::Message)]
@@ -5497,6 +5529,8 @@ pub enum TakeState {
     TruncatedDiskFull = 4,
     /// unreadable; kept for a person to look at
     Quarantined = 5,
+    /// cut short by a crash; its file is being brought into order, ask for it again soon
+    Recovering = 6,
 }
 impl TakeState {
     /// String value of the enum field names used in the ProtoBuf definition.
@@ -5511,6 +5545,7 @@ impl TakeState {
             Self::Degraded => "TAKE_STATE_DEGRADED",
             Self::TruncatedDiskFull => "TAKE_STATE_TRUNCATED_DISK_FULL",
             Self::Quarantined => "TAKE_STATE_QUARANTINED",
+            Self::Recovering => "TAKE_STATE_RECOVERING",
         }
     }
     /// Creates an enum from field names used in the ProtoBuf definition.
@@ -5522,6 +5557,7 @@ impl TakeState {
             "TAKE_STATE_DEGRADED" => Some(Self::Degraded),
             "TAKE_STATE_TRUNCATED_DISK_FULL" => Some(Self::TruncatedDiskFull),
             "TAKE_STATE_QUARANTINED" => Some(Self::Quarantined),
+            "TAKE_STATE_RECOVERING" => Some(Self::Recovering),
             _ => None,
         }
     }

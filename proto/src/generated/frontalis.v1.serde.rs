@@ -3263,8 +3263,14 @@ impl serde::Serialize for DeleteActorResponse {
         S: serde::Serializer,
     {
         use serde::ser::SerializeStruct;
-        let len = 0;
-        let struct_ser = serializer.serialize_struct("frontalis.v1.DeleteActorResponse", len)?;
+        let mut len = 0;
+        if self.receipt.is_some() {
+            len += 1;
+        }
+        let mut struct_ser = serializer.serialize_struct("frontalis.v1.DeleteActorResponse", len)?;
+        if let Some(v) = self.receipt.as_ref() {
+            struct_ser.serialize_field("receipt", v)?;
+        }
         struct_ser.end()
     }
 }
@@ -3275,10 +3281,12 @@ impl<'de> serde::Deserialize<'de> for DeleteActorResponse {
         D: serde::Deserializer<'de>,
     {
         const FIELDS: &[&str] = &[
+            "receipt",
         ];
 
         #[allow(clippy::enum_variant_names)]
         enum GeneratedField {
+            Receipt,
         }
         impl<'de> serde::Deserialize<'de> for GeneratedField {
             fn deserialize<D>(deserializer: D) -> std::result::Result<GeneratedField, D::Error>
@@ -3299,7 +3307,10 @@ impl<'de> serde::Deserialize<'de> for DeleteActorResponse {
                     where
                         E: serde::de::Error,
                     {
-                            Err(serde::de::Error::unknown_field(value, FIELDS))
+                        match value {
+                            "receipt" => Ok(GeneratedField::Receipt),
+                            _ => Err(serde::de::Error::unknown_field(value, FIELDS)),
+                        }
                     }
                 }
                 deserializer.deserialize_identifier(GeneratedVisitor)
@@ -3317,10 +3328,19 @@ impl<'de> serde::Deserialize<'de> for DeleteActorResponse {
                 where
                     V: serde::de::MapAccess<'de>,
             {
-                while map_.next_key::<GeneratedField>()?.is_some() {
-                    let _ = map_.next_value::<serde::de::IgnoredAny>()?;
+                let mut receipt__ = None;
+                while let Some(k) = map_.next_key()? {
+                    match k {
+                        GeneratedField::Receipt => {
+                            if receipt__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("receipt"));
+                            }
+                            receipt__ = map_.next_value()?;
+                        }
+                    }
                 }
                 Ok(DeleteActorResponse {
+                    receipt: receipt__,
                 })
             }
         }
@@ -3743,6 +3763,203 @@ impl<'de> serde::Deserialize<'de> for EndSessionResponse {
             }
         }
         deserializer.deserialize_struct("frontalis.v1.EndSessionResponse", FIELDS, GeneratedVisitor)
+    }
+}
+impl serde::Serialize for ErasureReceipt {
+    #[allow(deprecated)]
+    fn serialize<S>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error>
+    where
+        S: serde::Serializer,
+    {
+        use serde::ser::SerializeStruct;
+        let mut len = 0;
+        if !self.actor.is_empty() {
+            len += 1;
+        }
+        if self.erase_time.is_some() {
+            len += 1;
+        }
+        if self.n_revisions != 0 {
+            len += 1;
+        }
+        if self.n_sessions != 0 {
+            len += 1;
+        }
+        if self.n_takes != 0 {
+            len += 1;
+        }
+        if self.n_bytes != 0 {
+            len += 1;
+        }
+        let mut struct_ser = serializer.serialize_struct("frontalis.v1.ErasureReceipt", len)?;
+        if !self.actor.is_empty() {
+            struct_ser.serialize_field("actor", &self.actor)?;
+        }
+        if let Some(v) = self.erase_time.as_ref() {
+            struct_ser.serialize_field("eraseTime", v)?;
+        }
+        if self.n_revisions != 0 {
+            #[allow(clippy::needless_borrow)]
+            #[allow(clippy::needless_borrows_for_generic_args)]
+            struct_ser.serialize_field("nRevisions", ToString::to_string(&self.n_revisions).as_str())?;
+        }
+        if self.n_sessions != 0 {
+            #[allow(clippy::needless_borrow)]
+            #[allow(clippy::needless_borrows_for_generic_args)]
+            struct_ser.serialize_field("nSessions", ToString::to_string(&self.n_sessions).as_str())?;
+        }
+        if self.n_takes != 0 {
+            #[allow(clippy::needless_borrow)]
+            #[allow(clippy::needless_borrows_for_generic_args)]
+            struct_ser.serialize_field("nTakes", ToString::to_string(&self.n_takes).as_str())?;
+        }
+        if self.n_bytes != 0 {
+            #[allow(clippy::needless_borrow)]
+            #[allow(clippy::needless_borrows_for_generic_args)]
+            struct_ser.serialize_field("nBytes", ToString::to_string(&self.n_bytes).as_str())?;
+        }
+        struct_ser.end()
+    }
+}
+impl<'de> serde::Deserialize<'de> for ErasureReceipt {
+    #[allow(deprecated)]
+    fn deserialize<D>(deserializer: D) -> std::result::Result<Self, D::Error>
+    where
+        D: serde::Deserializer<'de>,
+    {
+        const FIELDS: &[&str] = &[
+            "actor",
+            "erase_time",
+            "eraseTime",
+            "n_revisions",
+            "nRevisions",
+            "n_sessions",
+            "nSessions",
+            "n_takes",
+            "nTakes",
+            "n_bytes",
+            "nBytes",
+        ];
+
+        #[allow(clippy::enum_variant_names)]
+        enum GeneratedField {
+            Actor,
+            EraseTime,
+            NRevisions,
+            NSessions,
+            NTakes,
+            NBytes,
+        }
+        impl<'de> serde::Deserialize<'de> for GeneratedField {
+            fn deserialize<D>(deserializer: D) -> std::result::Result<GeneratedField, D::Error>
+            where
+                D: serde::Deserializer<'de>,
+            {
+                struct GeneratedVisitor;
+
+                impl serde::de::Visitor<'_> for GeneratedVisitor {
+                    type Value = GeneratedField;
+
+                    fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                        write!(formatter, "expected one of: {:?}", &FIELDS)
+                    }
+
+                    #[allow(unused_variables)]
+                    fn visit_str<E>(self, value: &str) -> std::result::Result<GeneratedField, E>
+                    where
+                        E: serde::de::Error,
+                    {
+                        match value {
+                            "actor" => Ok(GeneratedField::Actor),
+                            "eraseTime" | "erase_time" => Ok(GeneratedField::EraseTime),
+                            "nRevisions" | "n_revisions" => Ok(GeneratedField::NRevisions),
+                            "nSessions" | "n_sessions" => Ok(GeneratedField::NSessions),
+                            "nTakes" | "n_takes" => Ok(GeneratedField::NTakes),
+                            "nBytes" | "n_bytes" => Ok(GeneratedField::NBytes),
+                            _ => Err(serde::de::Error::unknown_field(value, FIELDS)),
+                        }
+                    }
+                }
+                deserializer.deserialize_identifier(GeneratedVisitor)
+            }
+        }
+        struct GeneratedVisitor;
+        impl<'de> serde::de::Visitor<'de> for GeneratedVisitor {
+            type Value = ErasureReceipt;
+
+            fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                formatter.write_str("struct frontalis.v1.ErasureReceipt")
+            }
+
+            fn visit_map<V>(self, mut map_: V) -> std::result::Result<ErasureReceipt, V::Error>
+                where
+                    V: serde::de::MapAccess<'de>,
+            {
+                let mut actor__ = None;
+                let mut erase_time__ = None;
+                let mut n_revisions__ = None;
+                let mut n_sessions__ = None;
+                let mut n_takes__ = None;
+                let mut n_bytes__ = None;
+                while let Some(k) = map_.next_key()? {
+                    match k {
+                        GeneratedField::Actor => {
+                            if actor__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("actor"));
+                            }
+                            actor__ = Some(map_.next_value()?);
+                        }
+                        GeneratedField::EraseTime => {
+                            if erase_time__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("eraseTime"));
+                            }
+                            erase_time__ = map_.next_value()?;
+                        }
+                        GeneratedField::NRevisions => {
+                            if n_revisions__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("nRevisions"));
+                            }
+                            n_revisions__ = 
+                                Some(map_.next_value::<::pbjson::private::NumberDeserialize<_>>()?.0)
+                            ;
+                        }
+                        GeneratedField::NSessions => {
+                            if n_sessions__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("nSessions"));
+                            }
+                            n_sessions__ = 
+                                Some(map_.next_value::<::pbjson::private::NumberDeserialize<_>>()?.0)
+                            ;
+                        }
+                        GeneratedField::NTakes => {
+                            if n_takes__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("nTakes"));
+                            }
+                            n_takes__ = 
+                                Some(map_.next_value::<::pbjson::private::NumberDeserialize<_>>()?.0)
+                            ;
+                        }
+                        GeneratedField::NBytes => {
+                            if n_bytes__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("nBytes"));
+                            }
+                            n_bytes__ = 
+                                Some(map_.next_value::<::pbjson::private::NumberDeserialize<_>>()?.0)
+                            ;
+                        }
+                    }
+                }
+                Ok(ErasureReceipt {
+                    actor: actor__.unwrap_or_default(),
+                    erase_time: erase_time__,
+                    n_revisions: n_revisions__.unwrap_or_default(),
+                    n_sessions: n_sessions__.unwrap_or_default(),
+                    n_takes: n_takes__.unwrap_or_default(),
+                    n_bytes: n_bytes__.unwrap_or_default(),
+                })
+            }
+        }
+        deserializer.deserialize_struct("frontalis.v1.ErasureReceipt", FIELDS, GeneratedVisitor)
     }
 }
 impl serde::Serialize for ExportActorRequest {
@@ -16281,6 +16498,7 @@ impl serde::Serialize for TakeState {
             Self::Degraded => "TAKE_STATE_DEGRADED",
             Self::TruncatedDiskFull => "TAKE_STATE_TRUNCATED_DISK_FULL",
             Self::Quarantined => "TAKE_STATE_QUARANTINED",
+            Self::Recovering => "TAKE_STATE_RECOVERING",
         };
         serializer.serialize_str(variant)
     }
@@ -16298,6 +16516,7 @@ impl<'de> serde::Deserialize<'de> for TakeState {
             "TAKE_STATE_DEGRADED",
             "TAKE_STATE_TRUNCATED_DISK_FULL",
             "TAKE_STATE_QUARANTINED",
+            "TAKE_STATE_RECOVERING",
         ];
 
         struct GeneratedVisitor;
@@ -16344,6 +16563,7 @@ impl<'de> serde::Deserialize<'de> for TakeState {
                     "TAKE_STATE_DEGRADED" => Ok(TakeState::Degraded),
                     "TAKE_STATE_TRUNCATED_DISK_FULL" => Ok(TakeState::TruncatedDiskFull),
                     "TAKE_STATE_QUARANTINED" => Ok(TakeState::Quarantined),
+                    "TAKE_STATE_RECOVERING" => Ok(TakeState::Recovering),
                     _ => Err(serde::de::Error::unknown_variant(value, FIELDS)),
                 }
             }

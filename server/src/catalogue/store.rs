@@ -1,5 +1,7 @@
 //! The catalogue for async callers: each call runs on a worker, so that no commit holds up the runtime.
 
+mod erasure;
+
 use std::sync::{Arc, Mutex, PoisonError};
 
 use frontalis_analysis::{
@@ -248,14 +250,9 @@ impl Store {
     /// # Errors
     ///
     /// As there.
-    pub async fn delete_actor(
-        &self,
-        actor: &ActorId,
-        with_sessions: bool,
-    ) -> Result<(), CatalogueError> {
+    pub async fn delete_actor(&self, actor: &ActorId) -> Result<(), CatalogueError> {
         let id = actor.clone();
-        self.commit(move |it| it.delete_actor(&id, with_sessions))
-            .await?;
+        self.commit(move |it| it.delete_actor(&id)).await?;
         self.cache.forget(actor);
         Ok(())
     }
@@ -338,15 +335,6 @@ impl Store {
     ) -> Result<Vec<TakeRow>, CatalogueError> {
         self.commit(move |it| it.takes(&filter, &after, limit))
             .await
-    }
-
-    /// As [`Catalogue::takes_left_open`].
-    ///
-    /// # Errors
-    ///
-    /// As there.
-    pub async fn takes_left_open(&self) -> Result<Vec<TakeRow>, CatalogueError> {
-        self.commit(Catalogue::takes_left_open).await
     }
 
     /// As [`Catalogue::label_take`].

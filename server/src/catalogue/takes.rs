@@ -11,8 +11,10 @@ use crate::name::{ActorId, SessionId, TakeId};
 /// Where a take stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TakeState {
-    /// Its session is being recorded, or was when the server crashed.
+    /// Its session is being recorded.
     Recording,
+    /// Its session was being recorded when the last process stopped; its file is being brought into order.
+    Recovering,
     /// Whole.
     Closed,
     /// Part of it could not be written.
@@ -24,8 +26,9 @@ pub enum TakeState {
 }
 
 impl TakeState {
-    const NAMES: [(Self, &str); 5] = [
+    const NAMES: [(Self, &str); 6] = [
         (Self::Recording, "recording"),
+        (Self::Recovering, "recovering"),
         (Self::Closed, "closed"),
         (Self::Degraded, "degraded"),
         (Self::TruncatedDiskFull, "truncated-disk-full"),
@@ -117,6 +120,9 @@ const COLUMNS: &str = "id, session, actor, actor_revision, slate, number, gestur
     start_time_nanos, stop_time_nanos, first_frame, last_frame, n_frames, n_bytes, state, recovered,
     resolved_from, start_timecode, with_images";
 
+/// What is being erased is not seen any more.
+const SEEN: &str = "id NOT IN (SELECT id FROM doomed_takes)";
+
 impl Catalogue {
     /// Adds a take that begins. A number of 0 becomes the next of its slate.
     ///
@@ -124,9 +130,7 @@ impl Catalogue {
     ///
     /// [`CatalogueError::TakeExists`] when there is one of that id.
     pub fn add_take(&self, new: &TakeRow) -> Result<TakeRow, CatalogueError> {
-        let connection = self.connection();
-        insert(&connection, new)?;
-        found(&connection, &new.id)
+        insert(&self.connection(), new)
     }
 
     /// Claims the id of a take that is yet to be made: what a crash leaves of it is erased at the next start.
@@ -139,7 +143,7 @@ impl Catalogue {
         if find(&connection, id)?.is_some() {
             return Err(CatalogueError::TakeExists);
         }
-        let statement = "INSERT OR IGNORE INTO doomed_takes VALUES (?1)";
+        let statement = "INSERT OR IGNORE INTO claimed_takes VALUES (?1)";
         match connection.execute(statement, [id.as_str()])? {
             0 => Err(CatalogueError::TakeExists),
             _ => Ok(()),
@@ -163,9 +167,23 @@ impl Catalogue {
             }
         }
         insert(&change, new)?;
-        change.execute("DELETE FROM doomed_takes WHERE id = ?1", [new.id.as_str()])?;
+        change.execute("DELETE FROM claimed_takes WHERE id = ?1", [new.id.as_str()])?;
         change.commit()?;
         found(&connection, &new.id)
+    }
+
+    /// Adds takes whose files are there, all or none of them.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::add_take`].
+    pub fn add_takes(&self, new: &[TakeRow]) -> Result<(), CatalogueError> {
+        let mut connection = self.connection();
+        let change = connection.transaction()?;
+        for row in new {
+            insert(&change, row)?;
+        }
+        Ok(change.commit()?)
     }
 
     /// One take.
@@ -199,15 +217,6 @@ impl Catalogue {
         let condition = "id > ?1 AND (?2 IS NULL OR session = ?2) AND (?3 IS NULL OR actor = ?3)
             AND (?4 IS NULL OR slate = ?4) ORDER BY id LIMIT ?5";
         select(&self.connection(), condition, values)
-    }
-
-    /// Takes that were being recorded when the last process stopped.
-    ///
-    /// # Errors
-    ///
-    /// That the database failed or a row cannot be read.
-    pub fn takes_left_open(&self) -> Result<Vec<TakeRow>, CatalogueError> {
-        select(&self.connection(), "state = 'recording' ORDER BY id", [])
     }
 
     /// Stores what people say of a take.
@@ -292,12 +301,26 @@ impl Catalogue {
         let change = connection.transaction()?;
         change.execute("DELETE FROM takes WHERE id = ?1", [id.as_str()])?;
         change.execute("DELETE FROM doomed_takes WHERE id = ?1", [id.as_str()])?;
+        change.execute("DELETE FROM claimed_takes WHERE id = ?1", [id.as_str()])?;
         change.commit()?;
         Ok(())
     }
+
+    /// At a start nothing is being made any more: what was claimed is to be erased.
+    pub(super) fn doom_claimed_takes(&self) -> Result<(), CatalogueError> {
+        let mut connection = self.connection();
+        let change = connection.transaction()?;
+        change.execute(
+            "INSERT OR IGNORE INTO doomed_takes SELECT id FROM claimed_takes",
+            [],
+        )?;
+        change.execute("DELETE FROM claimed_takes", [])?;
+        Ok(change.commit()?)
+    }
 }
 
-fn insert(connection: &Connection, new: &TakeRow) -> Result<(), CatalogueError> {
+fn insert(connection: &Connection, new: &TakeRow) -> Result<TakeRow, CatalogueError> {
+    let id = new.id.as_str();
     if find(connection, &new.id)?.is_some() {
         return Err(CatalogueError::TakeExists);
     }
@@ -313,7 +336,7 @@ fn insert(connection: &Connection, new: &TakeRow) -> Result<(), CatalogueError> 
     connection.execute(
         "INSERT INTO takes VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, ?15, ?16, ?17, ?18, ?19, ?20)",
         params![
-            new.id.as_str(),
+            id,
             new.session.as_str(),
             new.actor.as_str(),
             new.actor_revision,
@@ -335,7 +358,7 @@ fn insert(connection: &Connection, new: &TakeRow) -> Result<(), CatalogueError> 
             new.with_images,
         ],
     )?;
-    Ok(())
+    found(connection, &new.id)
 }
 
 fn found(connection: &Connection, id: &TakeId) -> Result<TakeRow, CatalogueError> {
@@ -352,20 +375,22 @@ fn next_number(connection: &Connection, slate: &str) -> Result<u32, CatalogueErr
 }
 
 fn find(connection: &Connection, id: &TakeId) -> Result<Option<TakeRow>, CatalogueError> {
-    let statement = format!("SELECT {COLUMNS} FROM takes WHERE id = ?1");
+    let statement = format!("SELECT {COLUMNS} FROM takes WHERE {SEEN} AND id = ?1");
     let found = connection
         .query_row(&statement, [id.as_str()], raw)
         .optional()?;
     found.map(RawTake::parse).transpose()
 }
 
-fn select(
+/// Of the takes that are not being erased.
+pub(super) fn select(
     connection: &Connection,
     condition: &str,
     values: impl Params,
 ) -> Result<Vec<TakeRow>, CatalogueError> {
-    let mut statement =
-        connection.prepare(&format!("SELECT {COLUMNS} FROM takes WHERE {condition}"))?;
+    let mut statement = connection.prepare(&format!(
+        "SELECT {COLUMNS} FROM takes WHERE {SEEN} AND {condition}"
+    ))?;
     let rows = statement.query_map(values, raw)?;
     rows.map(|it| it?.parse()).collect()
 }
@@ -444,7 +469,7 @@ impl RawTake {
     }
 }
 
-fn take_id(text: &str) -> Result<TakeId, CatalogueError> {
+pub(super) fn take_id(text: &str) -> Result<TakeId, CatalogueError> {
     TakeId::parse(text).map_err(|_| CatalogueError::Unreadable { what: "take id" })
 }
 

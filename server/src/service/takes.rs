@@ -1,5 +1,7 @@
 //! Takes as every door sees them: what is being recorded joined with what the catalogue keeps.
 
+mod erasing;
+mod recovery;
 mod resolve;
 
 use std::{io, path::PathBuf, sync::Arc, time::Duration};
@@ -9,19 +11,18 @@ use sha2::{Digest as _, Sha256};
 use tokio::sync::{Semaphore, watch};
 use tonic::Status;
 
-use super::{grpc::status::refuse, replay::Replays};
+pub use self::recovery::LeftOver;
+use self::recovery::RecoveryProgress;
+use super::{grpc::status::refuse, readiness::disk_low, replay::Replays};
 use crate::{
     catalogue::{CatalogueError, Store, TakeContent, TakeFilter, TakeLabels, TakeRow, TakeState},
     clock::ServerClock,
     config::RESOLVES,
     executor::{Threads, Workers},
-    fs::{Fs, TEMPORARY_SUFFIX},
+    fs::Fs,
     name::{SessionId, TakeId},
     session::{SessionHandle, SessionRegistry},
-    take::{
-        Condition, EndedTake, ExportSource, Recorder, Rewritten, StartError, TakeFileError,
-        TakeUnderWay, file_name,
-    },
+    take::{Condition, EndedTake, ExportSource, Recorder, StartError, TakeUnderWay, file_name},
     wire::{self, page::Page, session::effective, take::NewTake},
 };
 
@@ -42,6 +43,7 @@ pub struct Takes {
     /// One permit a re-solve.
     resolves: Arc<Semaphore>,
     resolvers: Workers,
+    recovery: RecoveryProgress,
 }
 
 impl Takes {
@@ -68,6 +70,7 @@ impl Takes {
             dir,
             resolves: Arc::new(Semaphore::new(RESOLVES)),
             resolvers: threads.workers(RESOLVES),
+            recovery: RecoveryProgress::default(),
         })
     }
 
@@ -194,8 +197,12 @@ impl Takes {
         let Ok(ended) = ended.wait_for(Option::is_some).await.map(|it| it.clone()) else {
             return;
         };
-        if let Some(ended) = ended
-            && let Err(error) = self.store_end(&ended).await
+        let Some(ended) = ended else {
+            return;
+        };
+        // One that was erased meanwhile has no row.
+        if let Err(error) = self.store_end(&ended).await
+            && !matches!(error, CatalogueError::NoTake)
         {
             let error = &error as &dyn std::error::Error;
             tracing::error!(take = %ended.id, error, "how a take ended could not be stored");
@@ -320,87 +327,6 @@ impl Takes {
         Ok(self.with_progress(self.store.label_take(id, labels).await?))
     }
 
-    /// Erases a take: its tombstone first, then its bytes, then its row (CONTRACTS U-12).
-    ///
-    /// # Errors
-    ///
-    /// `TAKE`, or that the storage failed; what is left is erased at the next start.
-    pub async fn delete(&self, id: &TakeId) -> Result<(), Status> {
-        self.store.take(id).await?;
-        self.store.doom_take(id).await?;
-        self.recorder.stop(id).await;
-        Ok(self.erase(id).await?)
-    }
-
-    async fn erase(&self, id: &TakeId) -> Result<(), CatalogueError> {
-        let (fs, dir, name) = (Arc::clone(&self.fs), self.dir.clone(), file_name(id));
-        self.recorder
-            .run(move || {
-                fs.remove(&dir.join(format!("{name}{TEMPORARY_SUFFIX}")))?;
-                fs.remove(&dir.join(&name))?;
-                fs.sync_dir(&dir)
-            })
-            .await?;
-        self.store.forget_take(id).await
-    }
-
-    /// Brings every take into order that the last process left open or half erased; returns how many were recovered.
-    ///
-    /// A take that cannot be read is quarantined and named; the others are not affected (CONTRACTS U-5, U-6).
-    ///
-    /// # Errors
-    ///
-    /// That the catalogue failed.
-    pub async fn recover(&self) -> Result<usize, CatalogueError> {
-        for id in self.store.doomed_takes().await? {
-            self.erase(&id).await?;
-        }
-        let left_open = self.store.takes_left_open().await?;
-        let n_takes = left_open.len();
-        for row in left_open {
-            let rewritten = self.recorder.try_rewrite(&row.id).await;
-            self.store.end_take(self.recovered(row, rewritten)).await?;
-        }
-        Ok(n_takes)
-    }
-
-    fn recovered(&self, row: TakeRow, rewritten: Result<Rewritten, TakeFileError>) -> TakeRow {
-        let stop_time_nanos = Some(row.stop_time_nanos.unwrap_or_else(|| self.unix_now()));
-        match rewritten {
-            Ok(it) => {
-                tracing::info!(
-                    take = %row.id,
-                    n_frames = it.figures.n_frames,
-                    n_damaged_bytes = it.n_damaged_bytes,
-                    n_tail_bytes = it.n_tail_bytes,
-                    "a take was recovered"
-                );
-                TakeRow {
-                    stop_time_nanos,
-                    content: TakeContent {
-                        first_frame: it.figures.first_frame,
-                        last_frame: it.figures.last_frame,
-                        n_frames: it.figures.n_frames,
-                        n_bytes: it.n_bytes,
-                    },
-                    state: TakeState::Closed,
-                    start_timecode: it.figures.start_timecode,
-                    recovered: true,
-                    ..row
-                }
-            }
-            Err(error) => {
-                let error = &error as &dyn std::error::Error;
-                tracing::error!(take = %row.id, error, "a take cannot be read, it is kept as it is");
-                TakeRow {
-                    stop_time_nanos,
-                    state: TakeState::Quarantined,
-                    ..row
-                }
-            }
-        }
-    }
-
     fn unix_now(&self) -> i64 {
         let clock = &self.clock;
         clock.now_nanos().saturating_add(clock.unix_offset_nanos())
@@ -434,7 +360,10 @@ fn start_status(error: &StartError) -> Status {
         StartError::Recorded(_) => {
             refuse(tonic::Code::FailedPrecondition, "TAKE_RECORDING", message)
         }
-        StartError::DiskLow { .. } => refuse(tonic::Code::ResourceExhausted, "DISK_LOW", message),
+        StartError::DiskLow(room) => disk_low(*room),
+        StartError::Io(error) if error.kind() == io::ErrorKind::StorageFull => {
+            refuse(tonic::Code::ResourceExhausted, "DISK_LOW", message)
+        }
         StartError::Io(_) => refuse(tonic::Code::Internal, "STORAGE", message),
         StartError::Session(error) => error.clone().into(),
         StartError::Subscribe(error) => (*error).into(),

@@ -235,11 +235,10 @@ impl SessionHandle {
     /// # Errors
     ///
     /// [`SessionError::Owned`] when another publisher holds the lease, [`SessionError::OwnedByAnother`] when it may not be
-    /// pushed out, or why the session takes no publisher.
+    /// pushed out, [`SessionError::TakeoverRate`] when somebody was a moment ago, or why the session takes no publisher.
     pub fn check_claim(&self, claim: &Claim) -> Result<(), SessionError> {
         let now_nanos = self.shared.clock.now_nanos();
-        let intake = self.shared.intake();
-        intake.check_claim(claim, now_nanos)
+        self.shared.intake().admit(claim, now_nanos)
     }
 
     /// Gives the session to a publisher; an older publication is fenced.

@@ -110,6 +110,9 @@ impl Owner {
     }
 }
 
+/// A session changes hands by takeover at most this often (BAD_INPUT I10).
+const TAKEOVER_EVERY: Duration = Duration::from_secs(1);
+
 /// A session's publisher, frame order and queue.
 #[derive(Debug)]
 pub(super) struct Intake {
@@ -128,6 +131,8 @@ pub(super) struct Intake {
     clock: ClockEstimate,
     /// Of whoever published last.
     last_mailbox: Weak<Mailbox>,
+    /// No earlier may somebody take over again.
+    next_takeover_nanos: i64,
     pub(super) publisher_timeout: Duration,
     /// A door that is broken on purpose: the search for violations has to find it out.
     #[cfg(test)]
@@ -152,6 +157,7 @@ impl Intake {
             tape: Tape::new(pre_roll),
             clock: ClockEstimate::default(),
             last_mailbox: Weak::new(),
+            next_takeover_nanos: i64::MIN,
             publisher_timeout,
             #[cfg(test)]
             forgets_epochs: false,
@@ -220,14 +226,31 @@ impl Intake {
         self.tape.note(recorded);
     }
 
+    /// Whether a publisher may start now: as [`Self::check_claim`] says, and whoever pushes another out in turn.
+    pub(super) fn admit(&mut self, claim: &Claim, now_nanos: i64) -> Result<(), SessionError> {
+        self.check_claim(claim, now_nanos)?;
+        if self.lease_of_another(claim, now_nanos).is_none() {
+            return Ok(());
+        }
+        let left_nanos = self.next_takeover_nanos.saturating_sub(now_nanos);
+        if left_nanos > 0 {
+            let retry_after = Duration::from_nanos(left_nanos.unsigned_abs());
+            return Err(SessionError::TakeoverRate { retry_after });
+        }
+        self.next_takeover_nanos = now_nanos.saturating_add(nanos(TAKEOVER_EVERY));
+        Ok(())
+    }
+
+    fn lease_of_another(&self, claim: &Claim, now_nanos: i64) -> Option<&Lease> {
+        let lease = self.lease.as_ref()?;
+        let is_in_force = now_nanos < lease.expires_nanos;
+        (is_in_force && lease.owner != Owner::of(claim)).then_some(lease)
+    }
+
     /// Whether a publisher may start.
     pub(super) fn check_claim(&self, claim: &Claim, now_nanos: i64) -> Result<(), SessionError> {
         self.check_open()?;
-        let in_force = self
-            .lease
-            .as_ref()
-            .filter(|it| now_nanos < it.expires_nanos);
-        let Some(lease) = in_force.filter(|it| it.owner != Owner::of(claim)) else {
+        let Some(lease) = self.lease_of_another(claim, now_nanos) else {
             return Ok(());
         };
         if !claim.takeover {

@@ -11,7 +11,7 @@ use mcap::{
     write::{NoSeek, Writer},
 };
 
-use super::{channel, chunk::Message, rewrite::TakeFileError};
+use super::{channel, chunk::Message, head::final_version, rewrite::TakeFileError};
 use crate::fs::{AppendFile, Fs};
 
 /// Records of one chunk before compression.
@@ -31,6 +31,7 @@ impl FinalForm {
             .compression(Some(Compression::Zstd))
             .chunk_size(Some(CHUNK_BYTES));
         let mut writer = options.create(NoSeek::new(sink))?;
+        writer.write_metadata(&final_version())?;
         channel::declare(&mut writer)?;
         Ok(Self(writer))
     }

@@ -25,6 +25,8 @@ pub struct Rewritten {
     pub n_damaged_bytes: u64,
     /// Bytes at its end that were never acknowledged.
     pub n_tail_bytes: u64,
+    /// When the last message was recorded, Unix nanoseconds; 0 without messages.
+    pub last_time_nanos: u64,
 }
 
 /// Why a take's file cannot be read, or not be put into its final form; what is there stays.
@@ -41,17 +43,23 @@ pub enum TakeFileError {
     Format(#[from] mcap::McapError),
 }
 
-/// Puts the compressed form of `name` in `dir` in its place. A crash at any moment leaves one of the two.
+/// Puts the compressed form of `name` in `dir` in its place. A crash at any moment leaves one of the two, and a failure no
+/// temporary file, unless that cannot even be removed.
 ///
 /// # Errors
 ///
-/// [`TakeFileError`]; the file is then as it was.
+/// [`TakeFileError`]; the file then has one of its two forms.
 pub fn rewrite(fs: &dyn Fs, dir: &Path, name: &str) -> Result<Rewritten, TakeFileError> {
     let file = dir.join(name);
     let temporary = dir.join(format!("{name}{TEMPORARY_SUFFIX}"));
     fs.remove(&temporary)?;
-    let rewritten = copy(fs, &file, &temporary)?;
-    fs.rename(&temporary, &file)?;
+    let copied = copy(fs, &file, &temporary);
+    let replaced = copied.and_then(|it| Ok(fs.rename(&temporary, &file).map(|()| it)?));
+    if replaced.is_err() {
+        // On a full disk it would be in the way; what cannot be removed now is at the next start.
+        drop(fs.remove(&temporary));
+    }
+    let rewritten = replaced?;
     fs.sync_dir(dir)?;
     Ok(rewritten)
 }
@@ -63,7 +71,6 @@ fn copy(fs: &dyn Fs, from: &Path, to: &Path) -> Result<Rewritten, TakeFileError>
     let mut copy = Copy {
         file: FinalForm::create(fs, to)?,
         rewritten: Rewritten::default(),
-        time_nanos: 0,
         next_event: 0,
     };
     while let Some(piece) = scan.next()? {
@@ -80,8 +87,6 @@ fn copy(fs: &dyn Fs, from: &Path, to: &Path) -> Result<Rewritten, TakeFileError>
 struct Copy {
     file: FinalForm,
     rewritten: Rewritten,
-    /// Of the last message.
-    time_nanos: u64,
     next_event: u32,
 }
 
@@ -95,7 +100,7 @@ impl Copy {
     }
 
     fn add(&mut self, message: &Message<'_>) -> Result<(), TakeFileError> {
-        self.time_nanos = message.time_nanos;
+        self.rewritten.last_time_nanos = message.time_nanos;
         if message.channel == Channel::Events {
             self.next_event = message.sequence.saturating_add(1);
         }
@@ -111,7 +116,7 @@ impl Copy {
         self.add(&Message {
             channel: Channel::Events,
             sequence: self.next_event,
-            time_nanos: self.time_nanos,
+            time_nanos: self.rewritten.last_time_nanos,
             data: &event.encode_to_vec(),
         })
     }

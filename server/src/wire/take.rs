@@ -55,6 +55,7 @@ pub fn take(row: &TakeRow) -> v1::Take {
 fn state(state: TakeState) -> v1::TakeState {
     match state {
         TakeState::Recording => v1::TakeState::Recording,
+        TakeState::Recovering => v1::TakeState::Recovering,
         TakeState::Closed => v1::TakeState::Closed,
         TakeState::Degraded => v1::TakeState::Degraded,
         TakeState::TruncatedDiskFull => v1::TakeState::TruncatedDiskFull,

@@ -167,7 +167,8 @@ impl TakeService for TakesGrpc {
         let name = &request.get_ref().name;
         let row = self.allowed(&peer.caller, Action::DeleteTake, name).await?;
         let deleted = self.takes.delete(&row.id).await;
-        self.audit.outcome("take_delete", &peer, name, deleted)?;
+        self.audit
+            .outcome("take_delete", &peer, &row.id.resource(), deleted)?;
         Ok(Response::new(v1::DeleteTakeResponse {}))
     }
 
@@ -182,7 +183,9 @@ impl TakeService for TakesGrpc {
         let row = self.allowed(&peer.caller, Action::ReadTakes, name).await?;
         let format = format(request.get_ref().format)?;
         let exported = self.exports.export(&peer, &row, format).await;
-        let exported = self.audit.outcome("take_export", &peer, name, exported)?;
+        let exported = self
+            .audit
+            .outcome("take_export", &peer, &row.id.resource(), exported)?;
         Ok(Response::new(peer.caller.while_valid(exported)))
     }
 

@@ -85,7 +85,10 @@ impl Takes {
                 let _gone = told.send(Ok(last)).await;
                 Ok(())
             }
-            Ok(None) => Ok(self.erase(&id).await?),
+            Ok(None) => {
+                self.erase(&id).await?;
+                Ok(())
+            }
             Err(status) => {
                 self.erase(&id).await?;
                 Err(status)
@@ -201,6 +204,10 @@ fn check_state(from: &TakeRow) -> Result<(), Status> {
         TakeState::Recording => refused(
             "TAKE_RECORDING",
             "the take is being recorded: stop it before it is solved again",
+        ),
+        TakeState::Recovering => refused(
+            "TAKE_RECOVERING",
+            "the take was cut short by a crash and is being brought into order: try again soon",
         ),
         TakeState::Quarantined => refused("TAKE_UNREADABLE", "the take's file cannot be read"),
         TakeState::Closed | TakeState::Degraded | TakeState::TruncatedDiskFull => Ok(()),
