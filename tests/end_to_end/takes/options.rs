@@ -166,7 +166,7 @@ fn echo(server_send_nanos: i64) -> ClockEcho {
 }
 
 #[tokio::test(flavor = "multi_thread", worker_threads = 2)]
-async fn d31_the_publishers_clock_is_estimated_shown_and_recorded() {
+async fn the_publishers_clock_is_estimated_shown_and_recorded() {
     let server = TestServer::with_session("stage").await;
     let performance = TestPerformance::reference();
     let take = start(&server, |_| {}).await.unwrap();

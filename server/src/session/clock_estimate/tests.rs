@@ -73,7 +73,7 @@ fn largest_error(clock: CaptureClock, seed: u64) -> i64 {
 }
 
 #[test]
-fn g14_the_offset_is_known_to_a_millisecond_under_jitter_and_drift() {
+fn the_offset_is_known_to_a_millisecond_under_jitter_and_drift() {
     let mut worst = 0;
     for offset_nanos in [-500 * MILLI, 0, 500 * MILLI] {
         for drift_ppm in [-100.0, 0.0, 100.0] {
