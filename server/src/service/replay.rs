@@ -7,7 +7,7 @@ mod reading;
 use std::{
     collections::BTreeMap,
     path::PathBuf,
-    sync::{Arc, Mutex, PoisonError},
+    sync::{Arc, Mutex, MutexGuard, PoisonError},
 };
 
 use tonic::{Code, Status};
@@ -123,8 +123,8 @@ impl Replays {
         if row.state == TakeState::Quarantined {
             return None;
         }
-        if let Some(known) = self.known_span(&row.id) {
-            return known;
+        if let Some(known) = self.spans().get(&row.id) {
+            return *known;
         }
         let (fs, file) = (Arc::clone(&self.fs), self.dir.join(file_name(&row.id)));
         let read = move || SampleReader::span(&*fs, &file);
@@ -143,13 +143,12 @@ impl Replays {
         }
     }
 
-    fn known_span(&self, id: &TakeId) -> Option<Option<SampleSpan>> {
-        let spans = self.spans.lock().unwrap_or_else(PoisonError::into_inner);
-        spans.get(id).copied()
+    fn spans(&self) -> MutexGuard<'_, BTreeMap<TakeId, Option<SampleSpan>>> {
+        self.spans.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     fn know_span(&self, id: TakeId, span: Option<SampleSpan>) {
-        let mut spans = self.spans.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut spans = self.spans();
         if spans.len() >= MAX_KNOWN_SPANS {
             spans.pop_first();
         }
