@@ -16,7 +16,7 @@ use super::*;
 use crate::{
     fs::MemFs,
     take::{
-        Channel, channel,
+        Channel,
         chunk::{ChunkBuffer, Message},
         rewrite::rewrite,
     },

@@ -6,7 +6,6 @@ use super::*;
 use crate::{
     fs::MemFs,
     take::{
-        channel,
         chunk::{ChunkBuffer, Message},
         growth::Written,
         rewrite::rewrite,
