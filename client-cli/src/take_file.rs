@@ -168,7 +168,7 @@ pub fn wire_frame(take: &TrcTake, frame: &TrcFrame) -> proto::MarkerFrame {
 /// The timecode at the frame's time, where the take has one.
 fn timecode(take: &TrcTake, frame: &TrcFrame) -> Option<Timecode> {
     /// Times in a TRC are rounded to microseconds: so little before a frame of the timecode is that frame.
-    const SLACK_FRAMES: f64 = 1e-3;
+    const SLACK_FRAMES: f64 = 1e-4;
     let start = take.start_timecode?;
     let elapsed_s = frame.time_s - take.frames.first()?.time_s;
     #[expect(clippy::cast_possible_truncation, reason = "the cast saturates")]
