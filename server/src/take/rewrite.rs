@@ -82,6 +82,7 @@ fn copy(fs: &dyn Fs, from: &Path, to: &Path) -> Result<Rewritten, TakeFileError>
     let sink = Sink {
         file: fs.create(to)?,
         n_bytes: 0,
+        waiting: Vec::new(),
     };
     let mut copy = Copy::start(sink)?;
     while let Some(piece) = scan.next()? {
@@ -155,22 +156,38 @@ impl Copy {
     fn finish(mut self) -> Result<Rewritten, TakeFileError> {
         self.writer.finish()?;
         let mut sink = self.writer.into_inner().into_inner();
+        sink.write_waiting()?;
         sink.file.sync()?;
         self.rewritten.n_bytes = sink.n_bytes;
         Ok(self.rewritten)
     }
 }
 
+/// What is written to the file at once, bytes; the writer gives its records in many small parts.
+const WRITE_BYTES: usize = 64 << 10;
+
 /// A growing file as a writer sees it.
 struct Sink {
     file: Box<dyn AppendFile>,
     n_bytes: u64,
+    waiting: Vec<u8>,
+}
+
+impl Sink {
+    fn write_waiting(&mut self) -> io::Result<()> {
+        self.file.append(&self.waiting)?;
+        self.waiting.clear();
+        Ok(())
+    }
 }
 
 impl Write for Sink {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.file.append(bytes)?;
+        self.waiting.extend_from_slice(bytes);
         self.n_bytes += bytes.len() as u64;
+        if self.waiting.len() >= WRITE_BYTES {
+            self.write_waiting()?;
+        }
         Ok(bytes.len())
     }
 
