@@ -14,6 +14,7 @@ pub mod listener;
 pub mod panics;
 pub mod peer;
 pub mod readiness;
+pub mod replay;
 pub mod rescue;
 pub mod retention;
 pub mod sessions;

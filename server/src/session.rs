@@ -13,6 +13,7 @@ mod judging;
 mod mailbox;
 mod order;
 mod panic_count;
+mod passed;
 mod pipeline;
 mod publication;
 mod queue;

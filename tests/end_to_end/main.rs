@@ -26,4 +26,5 @@ mod person;
 mod real_takes;
 mod recentering;
 mod restart;
+mod simulation;
 mod takes;

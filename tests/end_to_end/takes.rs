@@ -1,9 +1,13 @@
 //! What was acknowledged is in the take, whatever happens to the process (CONTRACTS U-1, U-3, U-5).
 
+mod copied;
 mod crash;
 mod labels;
+mod play;
 mod power_cut;
 mod recording;
+mod replay;
+mod resumed;
 
 use frontalis_proto::v1::{
     ExportTakeRequest, GetTakeRequest, StartTakeRequest, StopTakeRequest, Take,

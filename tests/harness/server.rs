@@ -217,6 +217,11 @@ impl TestServer {
         }
     }
 
+    /// Its data directory.
+    pub fn folder(&self) -> &std::path::Path {
+        self.folder.path()
+    }
+
     /// What the files with such names take on disk.
     pub fn disk_bytes(&self, has_name: impl Fn(&str) -> bool) -> u64 {
         let mut folders = vec![self.folder.path().to_owned()];
@@ -279,7 +284,7 @@ impl TestServer {
         }
     }
 
-    /// Kills the program, as a crash does, and starts another on the same folder.
+    /// Kills the program, as a crash does, and starts another on the same folder and the same port.
     ///
     /// # Panics
     ///
@@ -294,12 +299,15 @@ impl TestServer {
     ///
     /// When it is no program of its own.
     pub async fn kill_and_restart_after(self, change: impl FnOnce(&Path)) -> Self {
+        let mut config = self.config.clone();
+        config.listen = self.address();
         match self.running {
             Running::Program(program) => program.kill(),
             Running::Inside { .. } => panic!("this server is no program of its own"),
         }
         change(self.folder.path());
         let file = self.folder.path().join("frontalis.toml");
+        std::fs::write(&file, config.to_toml()).unwrap();
         let started = tokio::task::spawn_blocking(move || ServerProgram::start(&file));
         Self {
             running: Running::Program(Box::new(started.await.unwrap())),

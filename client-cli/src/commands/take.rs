@@ -1,5 +1,7 @@
 //! `frontalis take …`: record sessions, and what becomes of the recordings.
 
+mod play;
+
 use std::{
     io::Write as _,
     path::{Path, PathBuf},
@@ -12,6 +14,7 @@ use frontalis_client::{connection::Channel, error::ClientError, proto};
 use frontalis_proto::FieldMask;
 use proto::take_service_client::TakeServiceClient;
 
+use self::play::PlayArgs;
 use super::{
     Context, actor_name,
     names::{session_name, take_name},
@@ -35,6 +38,8 @@ pub enum TakeCommand {
     Label(LabelArgs),
     /// Save a take's file: an MCAP, which Foxglove opens
     Export(ExportArgs),
+    /// Publish a take again, in time, into a session
+    Play(PlayArgs),
     /// Erase a take; nothing of it stays on the server's disk, and it cannot be brought back
     Delete(DeleteArgs),
 }
@@ -126,6 +131,9 @@ pub async fn run(context: &Context, command: TakeCommand) -> anyhow::Result<Exit
     {
         anyhow::bail!("{what} without --yes: nothing of it would be left");
     }
+    if let TakeCommand::Play(args) = command {
+        return play::run(context, args).await.context(what);
+    }
     let mut client = TakeServiceClient::new(context.connect().await?);
     let take = match command {
         TakeCommand::List(args) => {
@@ -145,6 +153,7 @@ pub async fn run(context: &Context, command: TakeCommand) -> anyhow::Result<Exit
             say(format!("take {} is erased", args.id))?;
             return Ok(ExitCode::SUCCESS);
         }
+        TakeCommand::Play(_) => unreachable!("invariant: it was played above"),
         TakeCommand::Start(args) => start(&mut client, args).await,
         TakeCommand::Stop(args) => stop(&mut client, &args).await,
         TakeCommand::Show(args) => show(&mut client, &args).await,
@@ -169,6 +178,7 @@ impl TakeCommand {
             Self::Show(args) => format!("cannot show take {}", args.id),
             Self::Label(args) => format!("cannot change take {}", args.id),
             Self::Export(args) => format!("cannot save take {}", args.id),
+            Self::Play(args) => format!("cannot play {}", args.take()),
             Self::Delete(args) => format!("cannot erase take {}", args.id),
         }
     }

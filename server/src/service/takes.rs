@@ -13,7 +13,7 @@ use tonic::Status;
 
 pub use self::recovery::LeftOver;
 use self::recovery::RecoveryProgress;
-use super::{grpc::status::refuse, readiness::disk_low};
+use super::{grpc::status::refuse, readiness::disk_low, replay::Replays};
 use crate::{
     catalogue::{CatalogueError, Store, TakeContent, TakeFilter, TakeLabels, TakeRow, TakeState},
     clock::ServerClock,
@@ -67,6 +67,16 @@ impl Takes {
             dir,
             recovery: RecoveryProgress::default(),
         })
+    }
+
+    /// What replays them to subscribers.
+    pub fn replays(&self) -> Replays {
+        Replays::new(
+            self.store.clone(),
+            self.recorder.clone(),
+            Arc::clone(&self.fs),
+            self.dir.clone(),
+        )
     }
 
     /// What records.

@@ -15,6 +15,7 @@ use super::{
     frame::{IncomingFrame, Rejection},
     mailbox::Mailbox,
     order::{FrameOrder, Verdict},
+    passed::{Found, PassedFrames},
     publication::{Claim, Grant, Ingest, Offer, PublishEnd, Wait},
     queue::{MAX_WAITING_COMMANDS, WaitingFrame, Work, WorkQueue},
     rate::{Admission, RateLimit, RateMeter},
@@ -123,6 +124,7 @@ pub(super) struct Intake {
     counts: IntakeCounts,
     closed: Option<Closed>,
     tape: Tape,
+    passed: PassedFrames,
     /// Of whoever published last.
     last_mailbox: Weak<Mailbox>,
     /// No earlier may somebody take over again.
@@ -147,6 +149,7 @@ impl Intake {
             counts: IntakeCounts::default(),
             closed: None,
             tape: Tape::default(),
+            passed: PassedFrames::default(),
             last_mailbox: Weak::new(),
             next_takeover_nanos: i64::MIN,
             publisher_timeout,
@@ -159,6 +162,7 @@ impl Intake {
     pub(super) fn record(&mut self) -> Result<RecordingFeed, SessionError> {
         self.check_open()?;
         let next_frame = self.order.next_expected().max(1);
+        self.passed = PassedFrames::from(next_frame);
         Ok(self.tape.start(next_frame, self.accepted_through()))
     }
 
@@ -316,28 +320,69 @@ impl Intake {
         let number = frame.number;
         match self.order.judge(number, frame.content_hash) {
             Verdict::New => self.offer_new(frame, clock, now_nanos),
-            Verdict::Duplicate => {
-                self.counts.duplicate += 1;
-                Ok(Offer::Taken)
-            }
-            // A late frame is no mistake of the publisher: it does not count towards the limit in a row.
-            Verdict::Late => {
-                self.tape.frame(&frame, now_nanos, true);
-                self.counts.late += 1;
-                self.counts.rejected += 1;
-                let detail = format!("frame {} was already passed", self.order.accepted_through());
-                Ok(Offer::Rejected(rejection(number, "LATE", detail)))
-            }
-            Verdict::Conflict => {
-                let detail = "this number was taken with other content".to_owned();
-                self.refuse(mailbox, rejection(number, "FRAME_CONFLICT", detail))
-            }
+            Verdict::Duplicate => Ok(self.duplicate()),
+            Verdict::Late if self.tape.is_recording() => match self.passed.find(number) {
+                Found::Unknown => Ok(Offer::Unsure(frame)),
+                Found::Never => Ok(self.late(&frame, now_nanos)),
+                Found::Late(hash) => self.again(mailbox, &frame, hash),
+            },
+            Verdict::Late => Ok(self.late(&frame, now_nanos)),
+            Verdict::Conflict => self.conflict(mailbox, number),
             Verdict::Jump => {
                 let last = self.order.accepted_through();
                 let detail = format!("more than 2^32 beyond frame {last}");
                 self.refuse(mailbox, rejection(number, "FRAME_JUMP", detail))
             }
         }
+    }
+
+    /// Judges a frame again that was [`Offer::Unsure`]: the take has this content under its number, or none.
+    pub(super) fn offer_known(
+        &mut self,
+        mailbox: &Mailbox,
+        frame: &IncomingFrame,
+        in_take: Option<u64>,
+        now_nanos: i64,
+    ) -> Result<Offer, PublishEnd> {
+        self.renew(mailbox, now_nanos)?;
+        match in_take {
+            Some(hash) => self.again(mailbox, frame, hash),
+            None => Ok(self.late(frame, now_nanos)),
+        }
+    }
+
+    /// A frame whose number was taken with content of this hash.
+    fn again(
+        &mut self,
+        mailbox: &Mailbox,
+        frame: &IncomingFrame,
+        hash: u64,
+    ) -> Result<Offer, PublishEnd> {
+        if frame.content_hash == hash {
+            Ok(self.duplicate())
+        } else {
+            self.conflict(mailbox, frame.number)
+        }
+    }
+
+    fn duplicate(&mut self) -> Offer {
+        self.counts.duplicate += 1;
+        Offer::Taken
+    }
+
+    fn conflict(&mut self, mailbox: &Mailbox, number: u64) -> Result<Offer, PublishEnd> {
+        let detail = "this number was taken with other content".to_owned();
+        self.refuse(mailbox, rejection(number, "FRAME_CONFLICT", detail))
+    }
+
+    /// A late frame is no mistake of the publisher: it does not count towards the limit in a row.
+    fn late(&mut self, frame: &IncomingFrame, now_nanos: i64) -> Offer {
+        self.tape.frame(frame, now_nanos, true);
+        self.passed.came_late(frame.number, frame.content_hash);
+        self.counts.late += 1;
+        self.counts.rejected += 1;
+        let detail = format!("frame {} was already passed", self.order.accepted_through());
+        Offer::Rejected(rejection(frame.number, "LATE", detail))
     }
 
     fn offer_new(

@@ -43,6 +43,11 @@ impl Tape {
         self.tap.is_some() || self.is_settling
     }
 
+    /// Whether frames are handed on.
+    pub(super) fn is_recording(&self) -> bool {
+        self.tap.is_some()
+    }
+
     /// Whether a frame may be taken: what cannot be recorded is not.
     pub(super) fn has_room(&self) -> bool {
         self.tap.as_ref().is_none_or(RecordingTap::has_room)

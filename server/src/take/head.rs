@@ -258,7 +258,9 @@ pub(super) mod tests {
         let record_bytes = record(&said(Some(0))).len();
         let first = head.len() - record_bytes;
         // Of the schemas a few bytes: they are long, and their bytes are all alike to a checksum.
-        let places = (0..64).chain((64..first).step_by(4_099)).chain(first..head.len());
+        let places = (0..64)
+            .chain((64..first).step_by(4_099))
+            .chain(first..head.len());
         for place in places {
             for bit in 0..8 {
                 let mut flipped = head.to_vec();

@@ -14,6 +14,7 @@ use super::{
     chunk::{ChunkBuffer, Message},
     disk_room::IngestRate,
     figures::TakeFigures,
+    growth::{Growth, Written},
     head::growing_head,
 };
 use crate::{
@@ -44,6 +45,8 @@ pub fn file_name(id: &TakeId) -> String {
 pub(super) struct OpenTake {
     pub(super) id: TakeId,
     pub(super) session: SessionHandle,
+    /// What of it can be read.
+    pub(super) growth: Arc<Growth>,
     pending: Mutex<Pending>,
     /// `None` once nothing is written any more.
     file: tokio::sync::Mutex<Option<Box<dyn AppendFile>>>,
@@ -54,8 +57,10 @@ pub(super) struct OpenTake {
 struct Pending {
     chunk: ChunkBuffer,
     next_sequences: [u32; 3],
-    /// Last frame of the chunk.
-    through: u64,
+    /// With the chunk.
+    written: Written,
+    /// Before the chunk.
+    written_before: Written,
     /// Of all that was added.
     figures: TakeFigures,
     /// Of what is on stable storage.
@@ -76,12 +81,14 @@ impl OpenTake {
     ) -> Self {
         Self {
             id,
+            growth: Arc::new(Growth::new(session.run(), n_bytes)),
             session,
             ingest,
             pending: Mutex::new(Pending {
                 chunk: ChunkBuffer::default(),
                 next_sequences: [0; 3],
-                through: 0,
+                written: Written::default(),
+                written_before: Written::default(),
                 figures: TakeFigures::default(),
                 committed: TakeFigures::default(),
                 n_bytes,
@@ -116,7 +123,7 @@ impl OpenTake {
 
     pub(super) fn add_frame(&self, number: u64, sent: &[u8], time_nanos: u64) {
         let mut pending = self.pending();
-        pending.through = pending.through.max(number);
+        pending.written.add_frame(number);
         pending.figures.count_frame(number);
         pending.add(Channel::Markers, sent, time_nanos);
     }
@@ -124,6 +131,7 @@ impl OpenTake {
     pub(super) fn add_sample(&self, sample: &v1::CurveSample, time_nanos: u64) {
         let mut pending = self.pending();
         pending.figures.n_samples += 1;
+        pending.written.add_sample(sample.sequence, sample.frame);
         pending.add(Channel::Curves, &sample.encode_to_vec(), time_nanos);
     }
 
@@ -154,14 +162,21 @@ impl OpenTake {
         let Some(mut file) = writing.take() else {
             return;
         };
-        let (chunk, through, figures) = {
+        let (chunk, before, through, figures) = {
             let mut pending = self.pending();
             if pending.chunk.is_empty() {
                 drop(pending);
                 *writing = Some(file);
                 return;
             }
-            (pending.chunk.take(), pending.through, pending.figures)
+            let before = pending.written_before;
+            pending.written_before = pending.written;
+            (
+                pending.chunk.take(),
+                before,
+                pending.written,
+                pending.figures,
+            )
         };
         let n_bytes = chunk.len() as u64;
         let written = workers.run(move || {
@@ -178,7 +193,8 @@ impl OpenTake {
                     pending.committed = figures;
                 }
                 self.ingest.count(n_bytes);
-                self.session.set_durable_through(through);
+                self.growth.commit(n_bytes, before, through);
+                self.session.set_durable_through(through.frames_through);
             }
             Err(error) => self.fail(&error),
         }
@@ -198,6 +214,7 @@ impl OpenTake {
     /// Nothing is written any more.
     pub(super) async fn close(&self) {
         self.file.lock().await.take();
+        self.growth.end();
     }
 
     fn pending(&self) -> MutexGuard<'_, Pending> {

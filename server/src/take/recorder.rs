@@ -19,6 +19,8 @@ use super::{
     disk_room::{DiskRoom, IngestRate, LOOK_EVERY},
     figures::TakeFigures,
     finished::finished,
+    frame_lookup::{FrameLookup, Known},
+    growth::Growth,
     open_take::{Condition, OpenTake, file_name},
     recovery::final_form,
     rewrite::{Rewritten, TakeFileError},
@@ -42,6 +44,9 @@ const FLUSHES_AT_ONCE: usize = 16;
 
 /// Takes that are rewritten at once.
 const REWRITES_AT_ONCE: usize = 8;
+
+/// Pieces of takes that are read at once, for subscribers and publishers: each holds a chunk of a file meanwhile.
+const READS_AT_ONCE: usize = 4;
 
 /// Why a take does not start.
 #[derive(Debug, thiserror::Error)]
@@ -102,6 +107,7 @@ struct Inner {
     clock: ServerClock,
     flushes: Workers,
     rewrites: Workers,
+    reads: Workers,
     dirty: Arc<Notify>,
     tasks: TaskTracker,
     ingest: Arc<IngestRate>,
@@ -124,6 +130,7 @@ impl Recorder {
             clock,
             flushes: threads.workers(FLUSHES_AT_ONCE),
             rewrites: threads.workers(REWRITES_AT_ONCE),
+            reads: threads.workers(READS_AT_ONCE),
             dirty: Arc::default(),
             tasks: TaskTracker::new(),
             ingest: Arc::default(),
@@ -369,6 +376,41 @@ impl Recorder {
             figures,
             n_bytes,
         })
+    }
+
+    /// What can be read of a take under way.
+    pub fn growth(&self, id: &TakeId) -> Option<Arc<Growth>> {
+        let takes = self.inner.takes();
+        takes.get(id).map(|it| Arc::clone(&it.take.growth))
+    }
+
+    /// Finds frames of the take that a session is recorded as; `present` is what found them before, if it still can.
+    pub fn frames_of(
+        &self,
+        session: &SessionId,
+        present: Option<FrameLookup>,
+    ) -> Option<FrameLookup> {
+        let inner = &self.inner;
+        let takes = inner.takes();
+        let mut of_session = takes.values().filter(|it| it.take.session.id() == session);
+        let take = &of_session.next()?.take;
+        let present = present.filter(|it| it.is_of(&take.growth));
+        Some(present.unwrap_or_else(|| FrameLookup {
+            fs: Arc::clone(&inner.fs),
+            file: inner.dir.join(file_name(&take.id)),
+            growth: Arc::clone(&take.growth),
+            workers: inner.reads.clone(),
+            known: Known::default(),
+        }))
+    }
+
+    /// Runs a reading of a take where it holds nothing up.
+    pub async fn read<T, F>(&self, work: F) -> T
+    where
+        F: FnOnce() -> T + Send + 'static,
+        T: Send + 'static,
+    {
+        self.inner.reads.run(work).await
     }
 
     /// Lets something go on that [`Self::ended`] waits for.

@@ -112,6 +112,16 @@ impl Scan {
         self.size = self.size.max(size);
     }
 
+    /// Where the next piece starts.
+    pub fn offset(&self) -> u64 {
+        self.offset
+    }
+
+    /// Goes to a place at which a piece starts.
+    pub fn go_to(&mut self, offset: u64) {
+        self.offset = offset;
+    }
+
     fn chunk_at(&mut self, offset: u64) -> io::Result<Option<Vec<u8>>> {
         let start = self.bytes_at(offset, CHUNK_START_BYTES)?;
         let Some(n_bytes) = chunk::announced_bytes(&start) else {
@@ -131,6 +141,10 @@ impl Scan {
             // Blocks overlap, so that no start of a chunk is cut.
             let block = self.bytes_at(block_start, SEARCH_BYTES + CHUNK_START_BYTES)?;
             let n_starts = block.len().min(SEARCH_BYTES);
+            if n_starts == 0 {
+                // The file is shorter than was said.
+                break;
+            }
             for place in 0..n_starts {
                 let start = &block[place..];
                 let offset = block_start + place as u64;

@@ -128,16 +128,20 @@ impl Scribe {
     /// Only what belongs to recorded frames: samples of frames before them may still be on their way.
     fn write_update(&mut self, update: &Update) {
         let (first, now) = (self.feed.next_frame, self.now());
-        for gap in update.gaps.iter().filter(|it| it.last >= first) {
-            self.progress.solved_through = self.progress.solved_through.max(gap.last);
-            self.take.add_event(Event::Gap(gap_to_wire(gap)), now);
-        }
+        let mut gaps = update.gaps.iter().filter(|it| it.last >= first).peekable();
         for sample in &update.samples {
             let number = sample.sample.frame.0;
+            // In the order of their frames: whoever reads from a sample on finds the gaps before it there.
+            while let Some(gap) = gaps.next_if(|it| it.last < number) {
+                self.write_gap(gap, now);
+            }
             if number >= first {
                 self.progress.solved_through = self.progress.solved_through.max(number);
                 self.take.add_sample(&sample_to_wire(sample, DETAIL), now);
             }
+        }
+        for gap in gaps {
+            self.write_gap(gap, now);
         }
         if let Some(state) = update.state {
             // The same state again is a sign of life and no change.
@@ -146,6 +150,11 @@ impl Scribe {
                     .add_event(Event::State(state_to_wire(&state)), now);
             }
         }
+    }
+
+    fn write_gap(&mut self, gap: &Gap, now: u64) {
+        self.progress.solved_through = self.progress.solved_through.max(gap.last);
+        self.take.add_event(Event::Gap(gap_to_wire(gap)), now);
     }
 }
 

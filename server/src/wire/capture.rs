@@ -230,7 +230,7 @@ fn checksum(positions: &[f32]) -> u32 {
 }
 
 /// Hash of all that was sent but the checksum. The number is compared on its own.
-fn content_hash(sent: &v1::MarkerFrame) -> u64 {
+pub fn content_hash(sent: &v1::MarkerFrame) -> u64 {
     let mut hasher = DefaultHasher::new();
     hasher.write_i64(sent.capture_time_nanos);
     hasher.write_u64(sent.source_frame);
