@@ -137,6 +137,10 @@ bench: ## CPU time of the solve, the stage and the alignment, one thread
 bench-load: ## 64 sessions at 120 Hz with a subscriber each, 30 s: losses and latency
 	cargo run --release --package frontalis-tests --bin load
 
+.PHONY: bench-takes
+bench-takes: ## A take of 10 min of 27 markers at 120 Hz solved again, plain and by default: processor time of one core
+	cargo run --release --package frontalis-tests --bin takes
+
 .PHONY: accuracy
 accuracy: scipy ## Errors beside those of other methods where the truth is known: writes docs/accuracy.md and its pictures
 	cargo run --release --package frontalis-tests --bin accuracy

@@ -56,7 +56,7 @@ pub enum RecordedMessage {
     /// A frame as it came.
     Frame(MarkerFrame),
     /// What happened between frames.
-    Event(Event),
+    Event(Box<Event>),
 }
 
 /// A take's messages, in the order in which they were recorded.
@@ -116,8 +116,9 @@ impl RecordedTake {
     pub async fn next(&mut self) -> Result<Option<RecordedMessage>, RecordedTakeError> {
         loop {
             let n_wanted = match self.reader.next_event() {
-                None => return Ok(None),
-                Some(Err(McapError::UnexpectedEof | McapError::UnexpectedEoc)) => return Ok(None),
+                None | Some(Err(McapError::UnexpectedEof | McapError::UnexpectedEoc)) => {
+                    return Ok(None);
+                }
                 Some(Err(error)) => return Err(error.into()),
                 Some(Ok(LinearReadEvent::ReadRequest(n_bytes))) => n_bytes,
                 Some(Ok(LinearReadEvent::Record { data, opcode })) => {
@@ -180,7 +181,7 @@ fn message(topic: &str, data: &[u8]) -> Result<Option<RecordedMessage>, Recorded
         }
         "/events" => {
             let event = TakeEvent::decode(data).map_err(is_none)?.event;
-            Ok(event.map(RecordedMessage::Event))
+            Ok(event.map(|it| RecordedMessage::Event(Box::new(it))))
         }
         _ => Ok(None),
     }

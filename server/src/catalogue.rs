@@ -18,6 +18,7 @@ mod sessions;
 mod settings;
 mod store;
 mod takes;
+mod timecode;
 
 use std::{
     io,
@@ -231,6 +232,7 @@ impl Catalogue {
         };
         catalogue.fs.create_dir_all(&catalogue.packages)?;
         catalogue.sweep_packages()?;
+        catalogue.doom_claimed_takes()?;
         // What was deleted before a crash is not left in the log either.
         catalogue.scrub_log()?;
         Ok(catalogue)

@@ -16,7 +16,10 @@ use serde::{Deserialize, Serialize};
 
 pub use error::ConfigError;
 pub use http::{Http, Origin};
-pub use memory::{LARGE_BODIES, LARGE_BODY_BYTES, MemoryItem, SMALL_MESSAGE_BYTES, worst_case};
+pub use memory::{
+    LARGE_BODIES, LARGE_BODY_BYTES, MemoryItem, RESOLVES, SMALL_MESSAGE_BYTES, TAKE_EXPORTS,
+    worst_case,
+};
 use ranges::ranges;
 pub use tls::Tls;
 

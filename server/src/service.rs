@@ -18,4 +18,5 @@ pub mod replay;
 pub mod rescue;
 pub mod retention;
 pub mod sessions;
+pub mod take_exports;
 pub mod takes;

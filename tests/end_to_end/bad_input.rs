@@ -7,6 +7,7 @@ mod actor_packages;
 mod cancel;
 mod connections;
 mod documented;
+mod downloads;
 mod http1;
 mod http2;
 mod http_bodies;

@@ -184,6 +184,9 @@ pub fn many_takes(folder: &Path, head: &[u8], n_takes: usize, n_open: usize) {
             StoredState::Closed
         },
         recovered: false,
+        resolved_from: None,
+        start_timecode: None,
+        with_images: false,
     };
     let rows: Vec<_> = (0..n_takes).map(row).collect();
     Catalogue::open(folder).unwrap().add_takes(&rows).unwrap();

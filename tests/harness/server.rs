@@ -217,9 +217,9 @@ impl TestServer {
         }
     }
 
-    /// Its data directory.
-    pub fn folder(&self) -> &std::path::Path {
-        self.folder.path()
+    /// The server's data directory.
+    pub fn data_dir(&self) -> &std::path::Path {
+        self.config.data_dir.as_ref()
     }
 
     /// What the files with such names take on disk.

@@ -7,7 +7,7 @@ use rusqlite::{Connection, TransactionBehavior};
 use super::CatalogueError;
 
 /// Step `i` leads from version `i` to version `i + 1`.
-const STEPS: &[&str] = &[V1, V2, V3];
+const STEPS: &[&str] = &[V1, V2, V3, V4];
 
 /// `counters` holds what must not repeat when rows are gone: the highest run and epoch of any collected session, and
 /// the number of the last package file.
@@ -79,9 +79,19 @@ CREATE TABLE doomed_takes (
 ) STRICT;
 ";
 
-/// Actors that are being erased.
+/// Where takes come from, and where on the stage's clock they begin.
 const V3: &str = "
+ALTER TABLE takes ADD COLUMN resolved_from  TEXT;
+ALTER TABLE takes ADD COLUMN start_timecode TEXT;
+ALTER TABLE takes ADD COLUMN with_images    INTEGER NOT NULL DEFAULT 0;
+";
+
+/// Actors that are being erased, and takes that are being made of others.
+const V4: &str = "
 CREATE TABLE doomed_actors (
+    id TEXT PRIMARY KEY
+) STRICT;
+CREATE TABLE claimed_takes (
     id TEXT PRIMARY KEY
 ) STRICT;
 ";

@@ -293,6 +293,25 @@ impl Store {
         self.commit(move |it| it.add_take(&new)).await
     }
 
+    /// As [`Catalogue::claim_take`].
+    ///
+    /// # Errors
+    ///
+    /// As there.
+    pub async fn claim_take(&self, id: &TakeId) -> Result<(), CatalogueError> {
+        let id = id.clone();
+        self.commit(move |it| it.claim_take(&id)).await
+    }
+
+    /// As [`Catalogue::add_claimed_take`].
+    ///
+    /// # Errors
+    ///
+    /// As there.
+    pub async fn add_claimed_take(&self, new: TakeRow) -> Result<TakeRow, CatalogueError> {
+        self.commit(move |it| it.add_claimed_take(&new)).await
+    }
+
     /// As [`Catalogue::take`].
     ///
     /// # Errors

@@ -22,6 +22,7 @@ mod server;
 mod sessions;
 mod stream;
 mod streams;
+mod takes;
 
 use axum::{
     Extension, Router,
@@ -89,12 +90,17 @@ fn api(metrics: &Metrics) -> (Router<Doors>, OpenApi) {
         .routes(routes!(sessions::recenter))
         .routes(routes!(sessions::end))
         .routes(routes!(curves::read))
+        .routes(routes!(takes::list, takes::start))
+        .routes(routes!(takes::get, takes::update, takes::delete))
         .layer(middleware::from_fn(within_deadline));
     // What may take longer has deadlines of its own.
     let transfers = OpenApiRouter::new()
         .routes(routes!(actors::import))
         .routes(routes!(actors::model))
-        .routes(routes!(actors::package));
+        .routes(routes!(actors::package))
+        .routes(routes!(takes::stop))
+        .routes(routes!(takes::download))
+        .routes(routes!(takes::resolve));
     calls
         .merge(transfers)
         .merge(streams::routes())

@@ -7,7 +7,7 @@ mod reading;
 use std::{
     collections::BTreeMap,
     path::PathBuf,
-    sync::{Arc, Mutex, PoisonError},
+    sync::{Arc, Mutex, MutexGuard, PoisonError},
 };
 
 use tonic::{Code, Status};
@@ -84,7 +84,8 @@ impl Replays {
                 .store
                 .takes(filter.clone(), after.clone(), ROWS_AT_ONCE)
                 .await?;
-            for row in &rows {
+            // What was solved again was never sent to anybody.
+            for row in rows.iter().filter(|it| it.resolved_from.is_none()) {
                 held.extend(self.held_by(row, run).await);
             }
             match rows.last() {
@@ -123,8 +124,8 @@ impl Replays {
         if row.state == TakeState::Quarantined {
             return None;
         }
-        if let Some(known) = self.known_span(&row.id) {
-            return known;
+        if let Some(known) = self.spans().get(&row.id) {
+            return *known;
         }
         let (fs, file) = (Arc::clone(&self.fs), self.dir.join(file_name(&row.id)));
         let read = move || SampleReader::span(&*fs, &file);
@@ -143,13 +144,12 @@ impl Replays {
         }
     }
 
-    fn known_span(&self, id: &TakeId) -> Option<Option<SampleSpan>> {
-        let spans = self.spans.lock().unwrap_or_else(PoisonError::into_inner);
-        spans.get(id).copied()
+    fn spans(&self) -> MutexGuard<'_, BTreeMap<TakeId, Option<SampleSpan>>> {
+        self.spans.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     fn know_span(&self, id: TakeId, span: Option<SampleSpan>) {
-        let mut spans = self.spans.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut spans = self.spans();
         if spans.len() >= MAX_KNOWN_SPANS {
             spans.pop_first();
         }

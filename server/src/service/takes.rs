@@ -2,13 +2,13 @@
 
 mod erasing;
 mod recovery;
+mod resolve;
 
-use std::{io, path::PathBuf, sync::Arc};
+use std::{io, path::PathBuf, sync::Arc, time::Duration};
 
 use frontalis_proto::v1;
-use futures::Stream;
 use sha2::{Digest as _, Sha256};
-use tokio::sync::watch;
+use tokio::sync::{Semaphore, watch};
 use tonic::Status;
 
 pub use self::recovery::LeftOver;
@@ -17,16 +17,16 @@ use super::{grpc::status::refuse, readiness::disk_low, replay::Replays};
 use crate::{
     catalogue::{CatalogueError, Store, TakeContent, TakeFilter, TakeLabels, TakeRow, TakeState},
     clock::ServerClock,
-    executor::Threads,
+    config::RESOLVES,
+    executor::{Threads, Workers},
     fs::Fs,
     name::{SessionId, TakeId},
     session::{SessionHandle, SessionRegistry},
-    take::{Condition, EndedTake, Recorder, StartError, TakeUnderWay, file_name},
-    wire::{page::Page, session::effective},
+    take::{Condition, EndedTake, ExportSource, Recorder, StartError, TakeUnderWay, file_name},
+    wire::{self, page::Page, session::effective, take::NewTake},
 };
 
-/// Bytes of a take's file in one message.
-const PIECE_BYTES: usize = 64 * 1024;
+pub use resolve::ResolveOrder;
 
 /// Rows that are looked at together for a caller who sees few of them.
 const ROWS_AT_ONCE: usize = 256;
@@ -40,6 +40,9 @@ pub struct Takes {
     clock: ServerClock,
     fs: Arc<dyn Fs>,
     dir: PathBuf,
+    /// One permit a re-solve.
+    resolves: Arc<Semaphore>,
+    resolvers: Workers,
     recovery: RecoveryProgress,
 }
 
@@ -65,6 +68,8 @@ impl Takes {
             clock,
             fs,
             dir,
+            resolves: Arc::new(Semaphore::new(RESOLVES)),
+            resolvers: threads.workers(RESOLVES),
             recovery: RecoveryProgress::default(),
         })
     }
@@ -89,7 +94,7 @@ impl Takes {
     /// # Errors
     ///
     /// `SESSION`, `TAKE_RECORDING`, `DISK_LOW`, or that the storage failed.
-    pub async fn start(&self, session: &SessionId, labels: TakeLabels) -> Result<TakeRow, Status> {
+    pub async fn start(&self, session: &SessionId, new: NewTake) -> Result<TakeRow, Status> {
         let handle = self.registry.get(session)?;
         handle.check_open()?;
         let start_time_nanos = self.unix_now();
@@ -98,24 +103,35 @@ impl Takes {
             session: session.clone(),
             actor: handle.actor_id().clone(),
             actor_revision: handle.actor_revision(),
-            labels,
+            labels: new.labels,
             start_time_nanos,
             stop_time_nanos: None,
             content: TakeContent::default(),
             state: TakeState::Recording,
             recovered: false,
+            resolved_from: None,
+            start_timecode: None,
+            with_images: new.with_images,
         };
         let row = self.store.add_take(row).await?;
-        let begun = self.begin(&row, handle).await;
+        let begun = self.begin(&row, handle, new.pre_roll).await;
         if begun.is_err() {
             self.store.forget_take(&row.id).await?;
         }
         begun.map(|()| row)
     }
 
-    async fn begin(&self, row: &TakeRow, handle: SessionHandle) -> Result<(), Status> {
+    async fn begin(
+        &self,
+        row: &TakeRow,
+        handle: SessionHandle,
+        pre_roll: Duration,
+    ) -> Result<(), Status> {
         let header = self.header(row, &handle).await?;
-        let started = self.recorder.start(row.id.clone(), handle, header).await;
+        let started = self
+            .recorder
+            .start(row.id.clone(), handle, header, pre_roll)
+            .await;
         let ended = started.map_err(|error| start_status(&error))?;
         let this = self.clone();
         self.recorder
@@ -145,10 +161,35 @@ impl Takes {
             start_time: Some(crate::wire::actor::timestamp(row.start_time_nanos)),
             controls: muscles.map(|it| it.name.clone()).collect(),
             markers: actor.markers().iter().map(|it| it.name.clone()).collect(),
-            next_sequence: 0,
             server_version: env!("CARGO_PKG_VERSION").to_owned(),
-            next_frame: 0,
+            with_images: row.with_images,
+            ..v1::TakeHeader::default()
         })
+    }
+
+    /// Records a session that is to be recorded from its first frame on, when that one is about to come.
+    ///
+    /// # Errors
+    ///
+    /// As of [`Self::start`]: what cannot be recorded is not to be taken either.
+    pub async fn start_with_first_frame(&self, handle: &SessionHandle) -> Result<(), Status> {
+        let settings = handle.settings();
+        if !settings.record || !handle.has_no_frames() || handle.is_recorded() {
+            return Ok(());
+        }
+        let new = NewTake {
+            with_images: settings.record_images,
+            ..NewTake::default()
+        };
+        match self.start(handle.id(), new).await {
+            Ok(row) => {
+                tracing::info!(take = %row.id, session = %row.session, "recorded from its first frame on");
+                Ok(())
+            }
+            // Somebody else started one meanwhile.
+            Err(_) if handle.is_recorded() => Ok(()),
+            Err(refused) => Err(refused),
+        }
     }
 
     /// Waits for the end of a take and writes it into the catalogue.
@@ -184,6 +225,7 @@ impl Takes {
                 n_bytes: ended.n_bytes,
             },
             state,
+            start_timecode: ended.figures.start_timecode,
             ..row
         };
         self.store.end_take(ended).await
@@ -224,7 +266,11 @@ impl Takes {
             n_frames: figures.n_frames,
             n_bytes,
         };
-        TakeRow { content, ..row }
+        TakeRow {
+            content,
+            start_timecode: figures.start_timecode,
+            ..row
+        }
     }
 
     /// A page of the takes that are seen.
@@ -260,34 +306,16 @@ impl Takes {
         Ok((rows.collect(), next))
     }
 
-    /// The bytes of a take's file, as far as they are on stable storage, in pieces. A take under way is cut where it stood at
-    /// the start.
-    pub fn file(
-        &self,
-        row: &TakeRow,
-    ) -> impl Stream<Item = Result<v1::ExportTakeResponse, Status>> + Send + 'static {
-        let (this, name, n_bytes) = (self.clone(), file_name(&row.id), row.content.n_bytes);
-        futures::stream::try_unfold(0, move |offset| {
-            let (this, name) = (this.clone(), name.clone());
-            async move {
-                let n_left = usize::try_from(n_bytes - offset).unwrap_or(usize::MAX);
-                let chunk = this.piece(name, offset, n_left.min(PIECE_BYTES)).await?;
-                let next = offset + chunk.len() as u64;
-                let is_over = chunk.is_empty();
-                Ok((!is_over).then_some((v1::ExportTakeResponse { chunk }, next)))
-            }
-        })
-    }
-
-    async fn piece(&self, name: String, offset: u64, n_bytes: usize) -> Result<Vec<u8>, Status> {
-        let (fs, file) = (Arc::clone(&self.fs), self.dir.join(name));
-        let read = self.recorder.run(move || {
-            let mut piece = vec![0; n_bytes];
-            let n_read = fs.open(&file)?.read_at(offset, &mut piece)?;
-            piece.truncate(n_read);
-            Ok::<_, io::Error>(piece)
-        });
-        Ok(read.await.map_err(CatalogueError::Storage)?)
+    /// What an export of this take reads. Nobody reads more of a take under way than is on stable storage.
+    pub(super) fn source(&self, row: &TakeRow) -> ExportSource {
+        let under_way = self.recorder.under_way(&row.id);
+        ExportSource {
+            fs: Arc::clone(&self.fs),
+            file: self.dir.join(file_name(&row.id)),
+            n_bytes: under_way.map_or(u64::MAX, |it| it.n_bytes),
+            take: wire::take::take(row),
+            actor: None,
+        }
     }
 
     /// Changes what is said of a take.

@@ -21,7 +21,7 @@ use crate::{
     executor::Workers,
     fs::{AppendFile, Fs},
     name::TakeId,
-    session::SessionHandle,
+    session::{RecordedFrame, SessionHandle},
 };
 
 /// How a recording goes.
@@ -121,11 +121,11 @@ impl OpenTake {
         Ok(Self::new(id, session, file, n_bytes, ingest))
     }
 
-    pub(super) fn add_frame(&self, number: u64, sent: &[u8], time_nanos: u64) {
+    pub(super) fn add_frame(&self, frame: &RecordedFrame, time_nanos: u64) {
         let mut pending = self.pending();
-        pending.written.add_frame(number);
-        pending.figures.count_frame(number);
-        pending.add(Channel::Markers, sent, time_nanos);
+        pending.written.add_frame(frame.number);
+        pending.figures.count_frame(frame.number, frame.timecode);
+        pending.add(Channel::Markers, &frame.sent, time_nanos);
     }
 
     pub(super) fn add_sample(&self, sample: &v1::CurveSample, time_nanos: u64) {

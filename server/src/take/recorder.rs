@@ -197,7 +197,7 @@ impl Recorder {
         }
     }
 
-    /// Starts to record `session` as take `id`; `header` says what is not the session's to say. What the session acknowledges
+    /// Starts to record `session` as take `id`, from `pre_roll` before now on as far as it is kept; `header` says what is not the session's to say. What the session acknowledges
     /// after this returned is in the take. What is returned tells when it is over and on stable storage.
     ///
     /// # Errors
@@ -208,6 +208,7 @@ impl Recorder {
         id: TakeId,
         session: SessionHandle,
         header: v1::TakeHeader,
+        pre_roll: Duration,
     ) -> Result<watch::Receiver<Option<EndedTake>>, StartError> {
         let room = self.look_at_disk().await;
         if !room.is_enough() {
@@ -226,7 +227,7 @@ impl Recorder {
             Arc::clone(&inner.ingest),
         );
         let take = Arc::new(take.await?);
-        let started = self.start_scribe(&take, header);
+        let started = self.start_scribe(&take, header, pre_roll);
         if started.is_err() {
             take.close().await;
             inner.fs.remove(&inner.dir.join(file_name(&id)))?;
@@ -238,6 +239,7 @@ impl Recorder {
         &self,
         take: &Arc<OpenTake>,
         header: v1::TakeHeader,
+        pre_roll: Duration,
     ) -> Result<watch::Receiver<Option<EndedTake>>, StartError> {
         let inner = &self.inner;
         let session = &take.session;
@@ -253,14 +255,21 @@ impl Recorder {
         let samples = session.hub().subscribe(SubscribeSpec {
             name: take.id.resource(),
             protocol: "take",
-            delivery: Delivery::EveryFrame(StartAt::Sequence(next_sequence)),
+            delivery: Delivery::EveryFrame(if pre_roll.is_zero() {
+                StartAt::Sequence(next_sequence)
+            } else {
+                // Samples of frames that are not in the take are passed over.
+                StartAt::Oldest
+            }),
             run: None,
         })?;
-        let feed = session.record()?;
+        let feed = session.record(pre_roll)?;
         let now = unix_nanos(&inner.clock, inner.clock.now_nanos());
         let header = v1::TakeHeader {
             next_sequence,
             next_frame: feed.next_frame,
+            last_capture_time_nanos: feed.last_capture_nanos,
+            pre_roll_from: feed.pre_roll.first().map_or(0, |it| it.number),
             ..header
         };
         take.add_event(Event::Header(header), now);
@@ -273,6 +282,7 @@ impl Recorder {
         drop(takes);
         let mut scribe = Scribe {
             take: Arc::clone(take),
+            first_frame: feed.first_frame(),
             feed,
             samples,
             clock: inner.clock,

@@ -1,29 +1,18 @@
 //! A take that is over, in large compressed chunks with index and summary, in place of the file that grew (CONTRACTS U-3).
 
-use std::{
-    io::{self, Write},
-    path::Path,
-};
+use std::{io, path::Path};
 
 use frontalis_proto::v1::{TakeCut, TakeEvent, take_event::Event};
-use mcap::{
-    Compression,
-    records::MessageHeader,
-    write::{NoSeek, Writer},
-};
 use prost::Message as _;
 
 use super::{
-    channel::{self, Channel},
+    channel::Channel,
     chunk::Message,
     figures::TakeFigures,
-    head::final_version,
+    final_form::FinalForm,
     scan::{self, Piece, Scan, ScanError},
 };
-use crate::fs::{AppendFile, Fs, TEMPORARY_SUFFIX};
-
-/// Records of one chunk before compression.
-const CHUNK_BYTES: u64 = 4 << 20;
+use crate::fs::{Fs, TEMPORARY_SUFFIX};
 
 /// What a rewriting found.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -79,12 +68,11 @@ fn copy(fs: &dyn Fs, from: &Path, to: &Path) -> Result<Rewritten, TakeFileError>
     let grown = fs.open(from)?;
     let size = grown.size()?;
     let mut scan = Scan::start(grown, size)?;
-    let sink = Sink {
-        file: fs.create(to)?,
-        n_bytes: 0,
-        waiting: Vec::new(),
+    let mut copy = Copy {
+        file: FinalForm::create(fs, to)?,
+        rewritten: Rewritten::default(),
+        next_event: 0,
     };
-    let mut copy = Copy::start(sink)?;
     while let Some(piece) = scan.next()? {
         match piece {
             Piece::Chunk(chunk) => copy.add_all(&scan::messages(&chunk))?,
@@ -97,26 +85,12 @@ fn copy(fs: &dyn Fs, from: &Path, to: &Path) -> Result<Rewritten, TakeFileError>
 
 /// A file that is being written.
 struct Copy {
-    writer: Writer<NoSeek<Sink>>,
+    file: FinalForm,
     rewritten: Rewritten,
     next_event: u32,
 }
 
 impl Copy {
-    fn start(sink: Sink) -> Result<Self, TakeFileError> {
-        let options = channel::options()
-            .compression(Some(Compression::Zstd))
-            .chunk_size(Some(CHUNK_BYTES));
-        let mut writer = options.create(NoSeek::new(sink))?;
-        writer.write_metadata(&final_version())?;
-        channel::declare(&mut writer)?;
-        Ok(Self {
-            writer,
-            rewritten: Rewritten::default(),
-            next_event: 0,
-        })
-    }
-
     fn add_all(&mut self, messages: &[Message<'_>]) -> Result<(), TakeFileError> {
         for message in messages {
             self.rewritten.figures.count(message.channel, message.data);
@@ -130,13 +104,7 @@ impl Copy {
         if message.channel == Channel::Events {
             self.next_event = message.sequence.saturating_add(1);
         }
-        let header = MessageHeader {
-            channel_id: message.channel.id(),
-            sequence: message.sequence,
-            log_time: message.time_nanos,
-            publish_time: message.time_nanos,
-        };
-        Ok(self.writer.write_to_known_channel(&header, message.data)?)
+        self.file.add(message)
     }
 
     /// Says where something is missing.
@@ -154,45 +122,8 @@ impl Copy {
     }
 
     fn finish(mut self) -> Result<Rewritten, TakeFileError> {
-        self.writer.finish()?;
-        let mut sink = self.writer.into_inner().into_inner();
-        sink.write_waiting()?;
-        sink.file.sync()?;
-        self.rewritten.n_bytes = sink.n_bytes;
+        self.rewritten.n_bytes = self.file.finish()?;
         Ok(self.rewritten)
-    }
-}
-
-/// What is written to the file at once, bytes; the writer gives its records in many small parts.
-const WRITE_BYTES: usize = 64 << 10;
-
-/// A growing file as a writer sees it.
-struct Sink {
-    file: Box<dyn AppendFile>,
-    n_bytes: u64,
-    waiting: Vec<u8>,
-}
-
-impl Sink {
-    fn write_waiting(&mut self) -> io::Result<()> {
-        self.file.append(&self.waiting)?;
-        self.waiting.clear();
-        Ok(())
-    }
-}
-
-impl Write for Sink {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.waiting.extend_from_slice(bytes);
-        self.n_bytes += bytes.len() as u64;
-        if self.waiting.len() >= WRITE_BYTES {
-            self.write_waiting()?;
-        }
-        Ok(bytes.len())
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        Ok(())
     }
 }
 

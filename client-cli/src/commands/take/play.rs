@@ -133,11 +133,15 @@ pub async fn run(context: &Context, args: PlayArgs) -> anyhow::Result<ExitCode> 
 
 /// The first message of every take.
 async fn header(take: &mut RecordedTake) -> anyhow::Result<TakeHeader> {
-    match take.next().await? {
-        Some(RecordedMessage::Event(Event::Header(header))) => Ok(header),
-        Some(_) => bail!("it does not begin as a take does: with a header"),
-        None => bail!("it is empty"),
+    let Some(first) = take.next().await? else {
+        bail!("it is empty");
+    };
+    if let RecordedMessage::Event(event) = first
+        && let Event::Header(header) = *event
+    {
+        return Ok(header);
     }
+    bail!("it does not begin as a take does: with a header");
 }
 
 /// Whether playing goes on.
@@ -201,11 +205,12 @@ impl Player {
         let mut source = None;
         while let Some(message) = take.next().await? {
             let frame = match message {
-                RecordedMessage::Event(Event::Source(it)) => {
-                    source = Some(it);
+                RecordedMessage::Event(event) => {
+                    if let Event::Source(it) = *event {
+                        source = Some(it);
+                    }
                     continue;
                 }
-                RecordedMessage::Event(_) => continue,
                 RecordedMessage::Frame(frame) => frame,
             };
             let Some(source) = &source else {

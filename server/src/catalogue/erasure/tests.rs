@@ -27,6 +27,9 @@ fn take(id: &str, actor: &str, notes: &str) -> TakeRow {
         content: TakeContent::default(),
         state: TakeState::Closed,
         recovered: false,
+        resolved_from: None,
+        start_timecode: None,
+        with_images: false,
     }
 }
 

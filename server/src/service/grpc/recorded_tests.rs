@@ -9,9 +9,10 @@ use tonic::{Code, Status};
 
 use super::stage::{Publisher, SESSION, Seen, Stage, asked, assert_refused, every_frame, settings};
 use crate::{
-    catalogue::{TakeLabels, TakeRow},
+    catalogue::TakeRow,
     name::{SessionId, TakeId},
     session::SessionLimits,
+    wire::take::NewTake,
 };
 
 /// Longer than the window and the memory for frames that are sent again.
@@ -66,24 +67,25 @@ impl Recorded {
         self.stage.takes.stop(&self.take).await.unwrap()
     }
 
-    fn from(&self, sequence: u64) -> v1::SubscribeStart {
-        v1::SubscribeStart {
-            from_sequence: sequence,
-            from_oldest: false,
-            with_uncertainty: true,
-            ..every_frame()
-        }
-    }
-
     async fn refused_from(&self, sequence: u64) -> Status {
-        let mut renderer = self.stage.subscribe(self.from(sequence)).await;
+        let mut renderer = self.stage.subscribe(starting_at(sequence)).await;
         renderer.end().await.1
+    }
+}
+
+/// Every frame from a sample of the present run on, with all that is stored of it.
+fn starting_at(sequence: u64) -> v1::SubscribeStart {
+    v1::SubscribeStart {
+        from_sequence: sequence,
+        from_oldest: false,
+        with_uncertainty: true,
+        ..every_frame()
     }
 }
 
 async fn start_take(stage: &Stage) -> TakeRow {
     let session = SessionId::from_resource(SESSION).unwrap();
-    let started = stage.takes.start(&session, TakeLabels::default()).await;
+    let started = stage.takes.start(&session, NewTake::default()).await;
     started.unwrap()
 }
 
@@ -142,7 +144,7 @@ async fn a_late_frame_is_recorded_once() {
 #[tokio::test(start_paused = true)]
 async fn what_the_window_forgot_is_replayed_and_joined_to_what_it_keeps() {
     let mut recorded = Recorded::start().await;
-    let mut live = recorded.stage.renderer(recorded.from(1)).await;
+    let mut live = recorded.stage.renderer(starting_at(1)).await;
     let mut frames = recorded.stage.frames(1..=400);
     frames.drain(99..110);
     recorded.publish(frames).await;
@@ -151,11 +153,11 @@ async fn what_the_window_forgot_is_replayed_and_joined_to_what_it_keeps() {
     assert!(recorded.stage.session.hub().oldest_sequence() > 380);
 
     for from in [1, 99, 100, 250] {
-        let mut renderer = recorded.stage.renderer(recorded.from(from)).await;
+        let mut renderer = recorded.stage.renderer(starting_at(from)).await;
         let samples = renderer.samples_through(400).await;
         let expected: Vec<_> = heard.iter().filter(|it| it.sequence >= from).collect();
         assert!(samples.iter().take(expected.len()).eq(expected), "{from}");
-        let mut renderer = recorded.stage.renderer(recorded.from(from)).await;
+        let mut renderer = recorded.stage.renderer(starting_at(from)).await;
         let number_of = |sequence| sequence + if sequence < 100 { 0 } else { 11 };
         let mut expected: Vec<_> = (from..=409).map(|it| sample(number_of(it), it)).collect();
         if from <= 100 {
@@ -174,7 +176,7 @@ async fn what_the_window_forgot_is_replayed_and_joined_to_what_it_keeps() {
 #[tokio::test(start_paused = true)]
 async fn a_renderer_that_lags_is_served_from_the_take() {
     let mut recorded = Recorded::start().await;
-    let mut slow = recorded.stage.renderer(recorded.from(1)).await;
+    let mut slow = recorded.stage.renderer(starting_at(1)).await;
     recorded.publish(recorded.stage.frames(1..=20)).await;
     let mut sequences: Vec<u64> = Vec::new();
     let mut last = 20;
@@ -209,7 +211,7 @@ async fn a_take_that_is_over_is_replayed_to_its_end_and_then_the_exact_loss_is_t
     recorded.publish(recorded.stage.frames(301..=400)).await;
     recorded.publish(recorded.stage.frames(401..=420)).await;
 
-    let mut renderer = recorded.stage.renderer(recorded.from(40)).await;
+    let mut renderer = recorded.stage.renderer(starting_at(40)).await;
     let samples = renderer.samples_through(100).await;
     let sequences: Vec<_> = samples.iter().map(|it| it.sequence).collect();
     assert_eq!(sequences, (40..=100).collect::<Vec<_>>());
@@ -236,7 +238,7 @@ async fn an_erased_take_is_replayed_no_more() {
         let frames = recorded.stage.frames(first..=first + 99);
         recorded.publish(frames).await;
     }
-    let mut before = recorded.stage.renderer(recorded.from(1)).await;
+    let mut before = recorded.stage.renderer(starting_at(1)).await;
     before.response().await.unwrap();
     recorded.stage.takes.delete(&recorded.take).await.unwrap();
     let refused = recorded.refused_from(1).await;

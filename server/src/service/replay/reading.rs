@@ -102,7 +102,7 @@ impl Replay {
         {
             return;
         }
-        std::future::pending().await
+        std::future::pending::<()>().await;
     }
 
     /// What comes next: `max_samples` at most, and as many gaps.

@@ -380,6 +380,9 @@ fn row_of(
         stop_time_nanos: None,
         content: TakeContent::default(),
         state: TakeState::Recovering,
+        resolved_from: None,
+        start_timecode: None,
+        with_images: header.with_images,
         recovered: true,
     })
 }
@@ -398,6 +401,7 @@ fn whole(row: TakeRow, found: &Rewritten) -> TakeRow {
             n_bytes: found.n_bytes,
         },
         state: TakeState::Closed,
+        start_timecode: found.figures.start_timecode,
         recovered: true,
         ..row
     }
