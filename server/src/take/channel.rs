@@ -91,7 +91,7 @@ mod tests {
         let head = growing_head().unwrap();
         let mut found = Vec::new();
         for record in mcap::read::LinearReader::new_with_options(
-            &head,
+            head,
             mcap::read::Options::IgnoreEndMagic.into(),
         )
         .unwrap()

@@ -26,6 +26,7 @@ impl FinalForm {
         let sink = Sink {
             file: fs.create(file)?,
             n_bytes: 0,
+            waiting: Vec::new(),
         };
         let options = channel::options()
             .compression(Some(Compression::Zstd))
@@ -50,21 +51,37 @@ impl FinalForm {
     pub(super) fn finish(mut self) -> Result<u64, TakeFileError> {
         self.0.finish()?;
         let mut sink = self.0.into_inner().into_inner();
+        sink.write_waiting()?;
         sink.file.sync()?;
         Ok(sink.n_bytes)
     }
 }
 
+/// What is written to the file at once, bytes; the writer gives its records in many small parts.
+const WRITE_BYTES: usize = 64 << 10;
+
 /// A growing file as a writer sees it.
 struct Sink {
     file: Box<dyn AppendFile>,
     n_bytes: u64,
+    waiting: Vec<u8>,
+}
+
+impl Sink {
+    fn write_waiting(&mut self) -> io::Result<()> {
+        self.file.append(&self.waiting)?;
+        self.waiting.clear();
+        Ok(())
+    }
 }
 
 impl Write for Sink {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        self.file.append(bytes)?;
+        self.waiting.extend_from_slice(bytes);
         self.n_bytes += bytes.len() as u64;
+        if self.waiting.len() >= WRITE_BYTES {
+            self.write_waiting()?;
+        }
         Ok(bytes.len())
     }
 

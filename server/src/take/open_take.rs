@@ -226,7 +226,7 @@ impl OpenTake {
 fn begin(fs: &dyn Fs, dir: &Path, name: &str) -> io::Result<(Box<dyn AppendFile>, u64)> {
     let head = growing_head().map_err(io::Error::other)?;
     let mut file = fs.create(&dir.join(name))?;
-    file.append(&head)?;
+    file.append(head)?;
     file.sync()?;
     fs.sync_dir(dir)?;
     Ok((file, head.len() as u64))

@@ -15,7 +15,7 @@ const NAME: &str = "one.mcap";
 fn growing(fs: &MemFs, n_frames: u64) -> Vec<usize> {
     let mut file = fs.create(&Path::new(DIR).join(NAME)).unwrap();
     let head = growing_head().unwrap();
-    file.append(&head).unwrap();
+    file.append(head).unwrap();
     let mut ends = vec![head.len()];
     for number in 1..=n_frames {
         let frame = MarkerFrame {
