@@ -52,7 +52,7 @@ pub enum Command {
     /// Create, list, show, change, recenter and end sessions
     #[command(subcommand)]
     Session(SessionCommand),
-    /// Record sessions; list, label, save and erase takes
+    /// Record sessions; list, label, save, play and erase takes
     #[command(subcommand)]
     Take(TakeCommand),
     /// Publish a TRC file into a session
@@ -115,6 +115,8 @@ mod tests {
             "frontalis session update take-1 --plain=false --smoothing 0.2 --sparsity 0.7 --robust --symmetry 0.1 --bounds none",
             "frontalis session end take-1",
             "frontalis --server http://10.0.0.5:7400 publish take.trc --session take-1 --fast",
+            "frontalis take play take-1-19f3c2a1b00 --speed 0.5 --session again --loop",
+            "frontalis take play one.mcap --keep",
             "frontalis watch take-1",
             "frontalis watch take-1 --every-frame --from-start --until-end --csv",
             "frontalis watch take-1 --every-frame --frames 100 --json",

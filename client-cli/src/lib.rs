@@ -8,6 +8,7 @@
 //! | [`error`] | what a server refused, its reason, and what to do about it |
 //! | [`backoff`] | how long to wait before trying again |
 //! | [`simulated_stage`] | an actor, cameras and a performance, for a stage without a studio |
+//! | [`recorded_take`] | what a take recorded, message after message |
 //! | [`take_file`] | a TRC or C3D file as frames to publish or to solve |
 //! | [`solve`] | the same analysis without a server |
 //! | [`csv`] | samples as rows of a table, the same bytes from a server and from a file |
@@ -20,6 +21,7 @@ pub mod curve_client;
 pub mod error;
 #[cfg(test)]
 mod fake_server;
+pub mod recorded_take;
 pub mod simulated_stage;
 pub mod solve;
 pub mod take_file;

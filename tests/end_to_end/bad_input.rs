@@ -25,6 +25,7 @@ mod protocol_order;
 mod protocols;
 mod resources;
 mod solver_options;
+mod storage;
 mod tls;
 mod websocket;
 mod wrong_markers;

@@ -1,12 +1,19 @@
 //! What was acknowledged is in the take, whatever happens to the process (CONTRACTS U-1, U-3, U-5).
 
 mod c3d_files;
+mod copied;
 mod crash;
 mod downloads;
 mod exports;
 mod labels;
+mod options;
+mod play;
+mod power_cut;
 mod python;
 mod recording;
+mod replay;
+mod resolve;
+mod resumed;
 
 use frontalis_proto::v1::{
     ExportTakeRequest, GetTakeRequest, MarkerFrame, StartTakeRequest, StopTakeRequest, Take,
@@ -15,9 +22,9 @@ use frontalis_proto::v1::{
 use harness::{Publisher, TestPerformance, TestServer};
 use tonic::Status;
 
-const SESSION: &str = "sessions/stage";
+pub const SESSION: &str = "sessions/stage";
 
-async fn start(server: &TestServer, session: &str, slate: &str) -> Result<Take, Status> {
+pub async fn start(server: &TestServer, session: &str, slate: &str) -> Result<Take, Status> {
     let request = StartTakeRequest {
         session: session.to_owned(),
         slate: slate.to_owned(),
@@ -27,7 +34,7 @@ async fn start(server: &TestServer, session: &str, slate: &str) -> Result<Take, 
     Ok(answer.into_inner().take.unwrap())
 }
 
-async fn stop(server: &TestServer, name: &str) -> Result<Take, Status> {
+pub async fn stop(server: &TestServer, name: &str) -> Result<Take, Status> {
     let request = StopTakeRequest {
         name: name.to_owned(),
     };
@@ -35,7 +42,7 @@ async fn stop(server: &TestServer, name: &str) -> Result<Take, Status> {
     Ok(answer.into_inner().take.unwrap())
 }
 
-async fn get(server: &TestServer, name: &str) -> Result<Take, Status> {
+pub async fn get(server: &TestServer, name: &str) -> Result<Take, Status> {
     let request = GetTakeRequest {
         name: name.to_owned(),
     };
@@ -44,7 +51,7 @@ async fn get(server: &TestServer, name: &str) -> Result<Take, Status> {
 }
 
 /// The take's file.
-async fn export(server: &TestServer, name: &str) -> Vec<u8> {
+pub async fn export(server: &TestServer, name: &str) -> Vec<u8> {
     let exported = export_as(server, name, TakeFormat::Mcap).await;
     exported.unwrap().0
 }

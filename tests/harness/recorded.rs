@@ -1,7 +1,11 @@
 //! What a take's file holds, as any MCAP reader sees it.
 
 use frontalis_proto::v1::{CurveSample, MarkerFrame, TakeEvent, take_event::Event};
-use mcap::read::{LinearReader, Options};
+use mcap::{
+    McapError,
+    read::{ChunkReader, LinearReader, Options},
+    records::Record,
+};
 use prost::Message as _;
 
 /// The messages of a take's file, by channel.
@@ -22,26 +26,37 @@ impl RecordedTake {
     ///
     /// When a record that is there cannot be read.
     pub fn read(file: &[u8]) -> Self {
+        Self::read_with(file, |error| panic!("{error}"))
+    }
+
+    /// Reads as much of a file as is whole: its end may be cut amid a record.
+    pub fn beginning(file: &[u8]) -> Self {
+        Self::read_with(file, |error| {
+            let is_cut = matches!(error, McapError::UnexpectedEof | McapError::UnexpectedEoc);
+            assert!(is_cut, "{error}");
+        })
+    }
+
+    fn read_with(file: &[u8], at_end: impl Fn(McapError)) -> Self {
         let mut take = Self::default();
         let mut topics = std::collections::HashMap::new();
-        for record in LinearReader::new_with_options(file, Options::IgnoreEndMagic.into()).unwrap()
-        {
-            match record.unwrap() {
-                mcap::records::Record::Channel(it) => drop(topics.insert(it.id, it.topic)),
-                mcap::records::Record::Chunk { header, data } => {
-                    for inner in mcap::read::ChunkReader::new(header, &data).unwrap() {
+        let options = Options::IgnoreEndMagic.into();
+        for record in LinearReader::new_with_options(file, options).unwrap() {
+            match record {
+                Err(error) => at_end(error),
+                Ok(Record::Channel(it)) => drop(topics.insert(it.id, it.topic)),
+                Ok(Record::Chunk { header, data }) => {
+                    for inner in ChunkReader::new(header, &data).unwrap() {
                         match inner.unwrap() {
-                            mcap::records::Record::Channel(it) => {
-                                topics.insert(it.id, it.topic);
-                            }
-                            mcap::records::Record::Message { header, data } => {
+                            Record::Channel(it) => drop(topics.insert(it.id, it.topic)),
+                            Record::Message { header, data } => {
                                 take.add(&topics[&header.channel_id], &data);
                             }
                             _ => {}
                         }
                     }
                 }
-                _ => {}
+                Ok(_) => {}
             }
         }
         take

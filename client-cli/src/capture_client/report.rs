@@ -33,6 +33,8 @@ pub struct PublishReport {
     pub run: u64,
     /// Runs that began during this publication, as after a restart of the server.
     pub new_runs: u64,
+    /// Whether a take of the session was being recorded at the last answer.
+    pub recording: bool,
     /// Every usable frame up to this number is with the server.
     pub accepted_through: u64,
     /// Every usable frame up to this number is on stable storage.

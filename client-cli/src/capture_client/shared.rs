@@ -90,6 +90,7 @@ impl Shared {
         }
         state.report.run = started.run;
         state.report.epoch = started.epoch;
+        state.report.recording = first.recording;
         state.shed_before = state.report.shed_frames;
         let has_through = if first.recording {
             started.durable_through
@@ -120,6 +121,7 @@ impl Shared {
         }
         state.report.shed_frames = state.shed_before + response.shed_frames;
         let report = &mut state.report;
+        report.recording = response.recording;
         report.accepted_through = report.accepted_through.max(response.accepted_through);
         report.durable_through = report.durable_through.max(response.durable_through);
         let safe_through = if response.recording {

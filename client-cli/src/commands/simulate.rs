@@ -29,7 +29,8 @@ use super::{
     Context, actor,
     interrupt::Interrupt,
     names::{default_publisher, session_name},
-    numbers, publish_summary, stage_run,
+    numbers, publish_summary,
+    stage_run::{self, StageClock},
 };
 use crate::terminal::{progress, say};
 
@@ -112,14 +113,22 @@ pub async fn run(context: &Context, args: SimulateArgs) -> anyhow::Result<ExitCo
         takeover: args.takeover,
         ..settings
     };
-    let client = CaptureClient::start(channel, settings)
+    let clock = StageClock::default();
+    let client = CaptureClient::start_on_clock(channel, settings, Some(clock.capture_clock()))
         .await
         .with_context(|| format!("the session {} was not opened for publishing", args.session))?;
     let bar = progress::frames(stage.remaining_frames(), "simulating");
-    let run = stage_run::run(&client, stage, args.rate, interrupt.wait(), |frame| {
-        bar.inc(1);
-        recording.take(frame);
-    })
+    let run = stage_run::run(
+        &client,
+        &clock,
+        stage,
+        args.rate,
+        interrupt.wait(),
+        |frame| {
+            bar.inc(1);
+            recording.take(frame);
+        },
+    )
     .await;
     bar.finish_and_clear();
     let published = client.finish().await;

@@ -1,6 +1,8 @@
 //! `frontalis take …`: record sessions, and what becomes of the recordings.
 
 mod export;
+mod play;
+mod resolve;
 
 use std::process::ExitCode;
 
@@ -10,6 +12,8 @@ use frontalis_client::{connection::Channel, error::ClientError, proto};
 use frontalis_proto::FieldMask;
 use proto::take_service_client::TakeServiceClient;
 
+use self::play::PlayArgs;
+use self::resolve::ResolveArgs;
 use super::{
     Context, actor_name,
     names::{session_name, take_name},
@@ -33,13 +37,18 @@ pub enum TakeCommand {
     Label(LabelArgs),
     /// Save a take: its MCAP, or curves as CSV, for Live Link or moving a face, or markers as TRC or C3D
     Export(export::ExportArgs),
+    /// Publish a take again, in time, into a session
+    Play(PlayArgs),
+    /// Solve a take again into a new one, with another revision of the actor or other settings
+    Resolve(ResolveArgs),
     /// Erase a take; nothing of it stays on the server's disk, and it cannot be brought back
     Delete(DeleteArgs),
 }
 
 #[derive(Debug, Args)]
 #[command(after_help = "Example:
-  frontalis take start stage-1 --slate 12A   the next take of slate 12A")]
+  frontalis take start stage-1 --slate 12A                  the next take of slate 12A
+  frontalis take start stage-1 --pre-roll 5 --gesture smile  with the five seconds before")]
 pub struct StartArgs {
     /// The session to be recorded
     session: String,
@@ -52,6 +61,12 @@ pub struct StartArgs {
     /// What a training take shows
     #[arg(long, value_name = "LABEL", default_value = "")]
     gesture: String,
+    /// So many seconds of what came before, from 0 to 10: frames and curves that the session still holds
+    #[arg(long, value_name = "SECS", default_value_t = 0.0)]
+    pre_roll: f64,
+    /// Keep raw images too, which a session of markers has none of
+    #[arg(long)]
+    with_images: bool,
 }
 
 #[derive(Debug, Args)]
@@ -116,6 +131,9 @@ pub async fn run(context: &Context, command: TakeCommand) -> anyhow::Result<Exit
     {
         anyhow::bail!("{what} without --yes: nothing of it would be left");
     }
+    if let TakeCommand::Play(args) = command {
+        return play::run(context, args).await.context(what);
+    }
     let mut client = TakeServiceClient::new(context.connect().await?);
     let take = match command {
         TakeCommand::List(args) => {
@@ -137,9 +155,11 @@ pub async fn run(context: &Context, command: TakeCommand) -> anyhow::Result<Exit
             say(format!("take {} is erased", args.id))?;
             return Ok(ExitCode::SUCCESS);
         }
+        TakeCommand::Play(_) => unreachable!("invariant: it was played above"),
         TakeCommand::Start(args) => start(&mut client, args).await,
         TakeCommand::Stop(args) => stop(&mut client, &args).await,
         TakeCommand::Show(args) => show(&mut client, &args).await,
+        TakeCommand::Resolve(args) => resolve::run(&mut client, &args).await,
         TakeCommand::Label(args) => label(&mut client, args).await,
     };
     let take = take.context(what)?.unwrap_or_default();
@@ -161,6 +181,8 @@ impl TakeCommand {
             Self::Show(args) => format!("cannot show take {}", args.id),
             Self::Label(args) => format!("cannot change take {}", args.id),
             Self::Export(args) => format!("cannot save take {}", args.id),
+            Self::Play(args) => format!("cannot play {}", args.take()),
+            Self::Resolve(args) => format!("cannot solve take {} again", args.id),
             Self::Delete(args) => format!("cannot erase take {}", args.id),
         }
     }
@@ -172,9 +194,26 @@ async fn start(client: &mut Client, args: StartArgs) -> Result<Option<proto::Tak
         slate: args.slate,
         number: args.number.unwrap_or_default(),
         gesture: args.gesture,
-        ..proto::StartTakeRequest::default()
+        with_images: args.with_images,
+        pre_roll: (args.pre_roll > 0.0).then(|| seconds(args.pre_roll)),
     };
+    if args.with_images {
+        eprintln!(
+            "note: a session of markers has no images: --with-images is noted and has no effect"
+        );
+    }
     Ok(client.start_take(request).await?.into_inner().take)
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "the server takes 0 to 10 s and refuses what saturates"
+)]
+fn seconds(secs: f64) -> pbjson_types::Duration {
+    pbjson_types::Duration {
+        seconds: secs.trunc() as i64,
+        nanos: (secs.fract() * 1e9).round() as i32,
+    }
 }
 
 async fn stop(client: &mut Client, args: &IdArgs) -> Result<Option<proto::Take>, ClientError> {

@@ -4,7 +4,10 @@
 //! Pure: knows no network and no clock.
 
 use super::{CurveEvent, StartAt};
-use crate::proto::{CurveSample, Gap};
+use crate::{
+    error::ClientError,
+    proto::{CurveSample, Gap},
+};
 
 /// The run and the last sample of a subscription to every frame.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -12,8 +15,10 @@ pub(super) struct Position {
     run: u64,
     last_sequence: u64,
     last_frame: u64,
-    /// The sample after the last is no longer kept.
-    place_is_gone: bool,
+    /// The first sample of the run is wanted: the run before it was followed to its end.
+    wants_first: bool,
+    /// Where to go on when the sample after the last cannot be had.
+    elsewhere: Option<StartAt>,
 }
 
 impl Position {
@@ -25,6 +30,7 @@ impl Position {
         }
         *self = Self {
             run,
+            wants_first: true,
             ..Self::default()
         };
         Some(CurveEvent::NewRun {
@@ -36,9 +42,12 @@ impl Position {
     /// Where to subscribe again. Without a sample so far there was none when the subscription began, so that the
     /// oldest is the next.
     pub fn resume(&self, asked_for: StartAt) -> StartAt {
+        if let Some(elsewhere) = self.elsewhere {
+            return elsewhere;
+        }
         match (self.run, self.last_sequence) {
             (0, _) => asked_for,
-            _ if self.place_is_gone => StartAt::Oldest,
+            (run, 0) if self.wants_first => StartAt::Sequence { run, sequence: 1 },
             (_, 0) => match asked_for {
                 StartAt::Sequence { .. } => asked_for,
                 StartAt::Now | StartAt::Oldest => StartAt::Oldest,
@@ -55,9 +64,27 @@ impl Position {
         self.run != 0
     }
 
-    /// The server no longer keeps the next sample: the oldest follows, and its sequence tells what was lost.
-    pub fn lose_place(&mut self) {
-        self.place_is_gone = true;
+    /// The server does not have the next sample: the refusal says where there is more, in this run or the one that followed it;
+    /// else the oldest that is kept follows. Its sequence tells what was lost.
+    pub fn lose_place(&mut self, refusal: &ClientError) {
+        let number = |key: &str| refusal.metadata.get(key)?.parse().ok();
+        let in_this_run = |sequence| StartAt::Sequence {
+            run: self.run,
+            sequence,
+        };
+        let next = match refusal.reason.as_deref() {
+            // The server may have it by now, or says where there is more.
+            Some("SUBSCRIBER_LAGGED") if self.last_sequence != 0 => {
+                self.elsewhere = None;
+                return;
+            }
+            Some("SEQUENCE") => number("first_available").map(in_this_run),
+            Some("NEW_RUN") => number("run").map(|run| StartAt::Sequence { run, sequence: 1 }),
+            _ => None,
+        };
+        // Where there was nothing once, it is not looked for again.
+        let next = next.filter(|it| self.elsewhere.as_ref() != Some(it));
+        self.elsewhere = Some(next.unwrap_or(StartAt::Oldest));
     }
 
     /// The events of one sample: nothing for one already seen, a loss before one that leaves a hole.
@@ -67,13 +94,14 @@ impl Position {
             return Vec::new();
         }
         let mut events = Vec::with_capacity(2);
-        if self.last_sequence != 0 && sequence > self.last_sequence + 1 {
+        let knows_the_next = self.last_sequence != 0 || self.wants_first;
+        if knows_the_next && sequence > self.last_sequence + 1 {
             events.push(CurveEvent::Lost {
                 first_sequence: self.last_sequence + 1,
                 last_sequence: sequence - 1,
             });
         }
-        self.place_is_gone = false;
+        self.elsewhere = None;
         self.last_sequence = sequence;
         self.last_frame = self.last_frame.max(sample.frame);
         events.push(CurveEvent::Sample(sample));
@@ -135,7 +163,8 @@ mod tests {
         let mut position = Position::default();
         position.enter_run(1);
         position.sample(sample(5));
-        position.lose_place();
+        let refusal = ClientError::local(tonic::Code::DataLoss, "lost");
+        position.lose_place(&refusal);
         assert_eq!(position.resume(StartAt::Now), StartAt::Oldest);
         assert_eq!(position.sample(sample(4)), []);
         assert_eq!(position.sample(sample(20)).len(), 2);
@@ -144,6 +173,40 @@ mod tests {
             sequence: 21,
         };
         assert_eq!(position.resume(StartAt::Now), expected);
+    }
+
+    fn refusal(reason: &str, key: &str, value: &str) -> ClientError {
+        ClientError {
+            reason: Some(reason.to_owned()),
+            metadata: [(key.to_owned(), value.to_owned())].into(),
+            ..ClientError::local(tonic::Code::OutOfRange, reason)
+        }
+    }
+
+    #[test]
+    fn a_refusal_says_where_there_is_more() {
+        let mut position = Position::default();
+        position.enter_run(1);
+        position.sample(sample(5));
+        let at = |run, sequence| StartAt::Sequence { run, sequence };
+        position.lose_place(&refusal("SUBSCRIBER_LAGGED", "last_lost", "8"));
+        assert_eq!(position.resume(StartAt::Now), at(1, 6));
+        position.lose_place(&refusal("SEQUENCE", "first_available", "12"));
+        assert_eq!(position.resume(StartAt::Now), at(1, 12));
+        // It is gone too by now.
+        position.lose_place(&refusal("SEQUENCE", "first_available", "12"));
+        assert_eq!(position.resume(StartAt::Now), StartAt::Oldest);
+        position.lose_place(&refusal("NEW_RUN", "run", "2"));
+        assert_eq!(position.resume(StartAt::Now), at(2, 1));
+        position.enter_run(2);
+        let lost = CurveEvent::Lost {
+            first_sequence: 1,
+            last_sequence: 3,
+        };
+        assert_eq!(
+            position.sample(sample(4)),
+            [lost, CurveEvent::Sample(sample(4))]
+        );
     }
 
     #[test]

@@ -204,7 +204,7 @@ impl Subscription {
             && matches!(error.code, Code::DataLoss | Code::OutOfRange);
         if place_is_gone {
             // The exact loss shows in the next sample's sequence, a new run in the next header.
-            self.position.lose_place();
+            self.position.lose_place(&error);
         } else if !self.has_header || !error.is_transient() {
             return Err(error);
         }

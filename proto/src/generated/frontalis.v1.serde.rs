@@ -423,6 +423,244 @@ impl<'de> serde::Deserialize<'de> for AlignmentReport {
         deserializer.deserialize_struct("frontalis.v1.AlignmentReport", FIELDS, GeneratedVisitor)
     }
 }
+impl serde::Serialize for AnalysisState {
+    #[allow(deprecated)]
+    fn serialize<S>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error>
+    where
+        S: serde::Serializer,
+    {
+        use serde::ser::SerializeStruct;
+        let mut len = 0;
+        if self.version != 0 {
+            len += 1;
+        }
+        if self.actor_revision != 0 {
+            len += 1;
+        }
+        if self.settings.is_some() {
+            len += 1;
+        }
+        if self.alignment.is_some() {
+            len += 1;
+        }
+        if self.source.is_some() {
+            len += 1;
+        }
+        if self.recentering {
+            len += 1;
+        }
+        if self.giving_up != 0 {
+            len += 1;
+        }
+        if self.scale_jumps != 0 {
+            len += 1;
+        }
+        if !self.numbers.is_empty() {
+            len += 1;
+        }
+        let mut struct_ser = serializer.serialize_struct("frontalis.v1.AnalysisState", len)?;
+        if self.version != 0 {
+            struct_ser.serialize_field("version", &self.version)?;
+        }
+        if self.actor_revision != 0 {
+            struct_ser.serialize_field("actorRevision", &self.actor_revision)?;
+        }
+        if let Some(v) = self.settings.as_ref() {
+            struct_ser.serialize_field("settings", v)?;
+        }
+        if let Some(v) = self.alignment.as_ref() {
+            struct_ser.serialize_field("alignment", v)?;
+        }
+        if let Some(v) = self.source.as_ref() {
+            struct_ser.serialize_field("source", v)?;
+        }
+        if self.recentering {
+            struct_ser.serialize_field("recentering", &self.recentering)?;
+        }
+        if self.giving_up != 0 {
+            let v = GapCause::try_from(self.giving_up)
+                .map_err(|_| serde::ser::Error::custom(format!("Invalid variant {}", self.giving_up)))?;
+            struct_ser.serialize_field("givingUp", &v)?;
+        }
+        if self.scale_jumps != 0 {
+            struct_ser.serialize_field("scaleJumps", &self.scale_jumps)?;
+        }
+        if !self.numbers.is_empty() {
+            struct_ser.serialize_field("numbers", &self.numbers)?;
+        }
+        struct_ser.end()
+    }
+}
+impl<'de> serde::Deserialize<'de> for AnalysisState {
+    #[allow(deprecated)]
+    fn deserialize<D>(deserializer: D) -> std::result::Result<Self, D::Error>
+    where
+        D: serde::Deserializer<'de>,
+    {
+        const FIELDS: &[&str] = &[
+            "version",
+            "actor_revision",
+            "actorRevision",
+            "settings",
+            "alignment",
+            "source",
+            "recentering",
+            "giving_up",
+            "givingUp",
+            "scale_jumps",
+            "scaleJumps",
+            "numbers",
+        ];
+
+        #[allow(clippy::enum_variant_names)]
+        enum GeneratedField {
+            Version,
+            ActorRevision,
+            Settings,
+            Alignment,
+            Source,
+            Recentering,
+            GivingUp,
+            ScaleJumps,
+            Numbers,
+        }
+        impl<'de> serde::Deserialize<'de> for GeneratedField {
+            fn deserialize<D>(deserializer: D) -> std::result::Result<GeneratedField, D::Error>
+            where
+                D: serde::Deserializer<'de>,
+            {
+                struct GeneratedVisitor;
+
+                impl serde::de::Visitor<'_> for GeneratedVisitor {
+                    type Value = GeneratedField;
+
+                    fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                        write!(formatter, "expected one of: {:?}", &FIELDS)
+                    }
+
+                    #[allow(unused_variables)]
+                    fn visit_str<E>(self, value: &str) -> std::result::Result<GeneratedField, E>
+                    where
+                        E: serde::de::Error,
+                    {
+                        match value {
+                            "version" => Ok(GeneratedField::Version),
+                            "actorRevision" | "actor_revision" => Ok(GeneratedField::ActorRevision),
+                            "settings" => Ok(GeneratedField::Settings),
+                            "alignment" => Ok(GeneratedField::Alignment),
+                            "source" => Ok(GeneratedField::Source),
+                            "recentering" => Ok(GeneratedField::Recentering),
+                            "givingUp" | "giving_up" => Ok(GeneratedField::GivingUp),
+                            "scaleJumps" | "scale_jumps" => Ok(GeneratedField::ScaleJumps),
+                            "numbers" => Ok(GeneratedField::Numbers),
+                            _ => Err(serde::de::Error::unknown_field(value, FIELDS)),
+                        }
+                    }
+                }
+                deserializer.deserialize_identifier(GeneratedVisitor)
+            }
+        }
+        struct GeneratedVisitor;
+        impl<'de> serde::de::Visitor<'de> for GeneratedVisitor {
+            type Value = AnalysisState;
+
+            fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                formatter.write_str("struct frontalis.v1.AnalysisState")
+            }
+
+            fn visit_map<V>(self, mut map_: V) -> std::result::Result<AnalysisState, V::Error>
+                where
+                    V: serde::de::MapAccess<'de>,
+            {
+                let mut version__ = None;
+                let mut actor_revision__ = None;
+                let mut settings__ = None;
+                let mut alignment__ = None;
+                let mut source__ = None;
+                let mut recentering__ = None;
+                let mut giving_up__ = None;
+                let mut scale_jumps__ = None;
+                let mut numbers__ = None;
+                while let Some(k) = map_.next_key()? {
+                    match k {
+                        GeneratedField::Version => {
+                            if version__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("version"));
+                            }
+                            version__ = 
+                                Some(map_.next_value::<::pbjson::private::NumberDeserialize<_>>()?.0)
+                            ;
+                        }
+                        GeneratedField::ActorRevision => {
+                            if actor_revision__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("actorRevision"));
+                            }
+                            actor_revision__ = 
+                                Some(map_.next_value::<::pbjson::private::NumberDeserialize<_>>()?.0)
+                            ;
+                        }
+                        GeneratedField::Settings => {
+                            if settings__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("settings"));
+                            }
+                            settings__ = map_.next_value()?;
+                        }
+                        GeneratedField::Alignment => {
+                            if alignment__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("alignment"));
+                            }
+                            alignment__ = map_.next_value()?;
+                        }
+                        GeneratedField::Source => {
+                            if source__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("source"));
+                            }
+                            source__ = map_.next_value()?;
+                        }
+                        GeneratedField::Recentering => {
+                            if recentering__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("recentering"));
+                            }
+                            recentering__ = Some(map_.next_value()?);
+                        }
+                        GeneratedField::GivingUp => {
+                            if giving_up__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("givingUp"));
+                            }
+                            giving_up__ = Some(map_.next_value::<GapCause>()? as i32);
+                        }
+                        GeneratedField::ScaleJumps => {
+                            if scale_jumps__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("scaleJumps"));
+                            }
+                            scale_jumps__ = 
+                                Some(map_.next_value::<::pbjson::private::NumberDeserialize<_>>()?.0)
+                            ;
+                        }
+                        GeneratedField::Numbers => {
+                            if numbers__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("numbers"));
+                            }
+                            numbers__ = Some(map_.next_value()?);
+                        }
+                    }
+                }
+                Ok(AnalysisState {
+                    version: version__.unwrap_or_default(),
+                    actor_revision: actor_revision__.unwrap_or_default(),
+                    settings: settings__,
+                    alignment: alignment__,
+                    source: source__,
+                    recentering: recentering__.unwrap_or_default(),
+                    giving_up: giving_up__.unwrap_or_default(),
+                    scale_jumps: scale_jumps__.unwrap_or_default(),
+                    numbers: numbers__.unwrap_or_default(),
+                })
+            }
+        }
+        deserializer.deserialize_struct("frontalis.v1.AnalysisState", FIELDS, GeneratedVisitor)
+    }
+}
 impl serde::Serialize for BasisReport {
     #[allow(deprecated)]
     fn serialize<S>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error>
@@ -3025,8 +3263,14 @@ impl serde::Serialize for DeleteActorResponse {
         S: serde::Serializer,
     {
         use serde::ser::SerializeStruct;
-        let len = 0;
-        let struct_ser = serializer.serialize_struct("frontalis.v1.DeleteActorResponse", len)?;
+        let mut len = 0;
+        if self.receipt.is_some() {
+            len += 1;
+        }
+        let mut struct_ser = serializer.serialize_struct("frontalis.v1.DeleteActorResponse", len)?;
+        if let Some(v) = self.receipt.as_ref() {
+            struct_ser.serialize_field("receipt", v)?;
+        }
         struct_ser.end()
     }
 }
@@ -3037,10 +3281,12 @@ impl<'de> serde::Deserialize<'de> for DeleteActorResponse {
         D: serde::Deserializer<'de>,
     {
         const FIELDS: &[&str] = &[
+            "receipt",
         ];
 
         #[allow(clippy::enum_variant_names)]
         enum GeneratedField {
+            Receipt,
         }
         impl<'de> serde::Deserialize<'de> for GeneratedField {
             fn deserialize<D>(deserializer: D) -> std::result::Result<GeneratedField, D::Error>
@@ -3061,7 +3307,10 @@ impl<'de> serde::Deserialize<'de> for DeleteActorResponse {
                     where
                         E: serde::de::Error,
                     {
-                            Err(serde::de::Error::unknown_field(value, FIELDS))
+                        match value {
+                            "receipt" => Ok(GeneratedField::Receipt),
+                            _ => Err(serde::de::Error::unknown_field(value, FIELDS)),
+                        }
                     }
                 }
                 deserializer.deserialize_identifier(GeneratedVisitor)
@@ -3079,10 +3328,19 @@ impl<'de> serde::Deserialize<'de> for DeleteActorResponse {
                 where
                     V: serde::de::MapAccess<'de>,
             {
-                while map_.next_key::<GeneratedField>()?.is_some() {
-                    let _ = map_.next_value::<serde::de::IgnoredAny>()?;
+                let mut receipt__ = None;
+                while let Some(k) = map_.next_key()? {
+                    match k {
+                        GeneratedField::Receipt => {
+                            if receipt__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("receipt"));
+                            }
+                            receipt__ = map_.next_value()?;
+                        }
+                    }
                 }
                 Ok(DeleteActorResponse {
+                    receipt: receipt__,
                 })
             }
         }
@@ -3505,6 +3763,203 @@ impl<'de> serde::Deserialize<'de> for EndSessionResponse {
             }
         }
         deserializer.deserialize_struct("frontalis.v1.EndSessionResponse", FIELDS, GeneratedVisitor)
+    }
+}
+impl serde::Serialize for ErasureReceipt {
+    #[allow(deprecated)]
+    fn serialize<S>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error>
+    where
+        S: serde::Serializer,
+    {
+        use serde::ser::SerializeStruct;
+        let mut len = 0;
+        if !self.actor.is_empty() {
+            len += 1;
+        }
+        if self.erase_time.is_some() {
+            len += 1;
+        }
+        if self.n_revisions != 0 {
+            len += 1;
+        }
+        if self.n_sessions != 0 {
+            len += 1;
+        }
+        if self.n_takes != 0 {
+            len += 1;
+        }
+        if self.n_bytes != 0 {
+            len += 1;
+        }
+        let mut struct_ser = serializer.serialize_struct("frontalis.v1.ErasureReceipt", len)?;
+        if !self.actor.is_empty() {
+            struct_ser.serialize_field("actor", &self.actor)?;
+        }
+        if let Some(v) = self.erase_time.as_ref() {
+            struct_ser.serialize_field("eraseTime", v)?;
+        }
+        if self.n_revisions != 0 {
+            #[allow(clippy::needless_borrow)]
+            #[allow(clippy::needless_borrows_for_generic_args)]
+            struct_ser.serialize_field("nRevisions", ToString::to_string(&self.n_revisions).as_str())?;
+        }
+        if self.n_sessions != 0 {
+            #[allow(clippy::needless_borrow)]
+            #[allow(clippy::needless_borrows_for_generic_args)]
+            struct_ser.serialize_field("nSessions", ToString::to_string(&self.n_sessions).as_str())?;
+        }
+        if self.n_takes != 0 {
+            #[allow(clippy::needless_borrow)]
+            #[allow(clippy::needless_borrows_for_generic_args)]
+            struct_ser.serialize_field("nTakes", ToString::to_string(&self.n_takes).as_str())?;
+        }
+        if self.n_bytes != 0 {
+            #[allow(clippy::needless_borrow)]
+            #[allow(clippy::needless_borrows_for_generic_args)]
+            struct_ser.serialize_field("nBytes", ToString::to_string(&self.n_bytes).as_str())?;
+        }
+        struct_ser.end()
+    }
+}
+impl<'de> serde::Deserialize<'de> for ErasureReceipt {
+    #[allow(deprecated)]
+    fn deserialize<D>(deserializer: D) -> std::result::Result<Self, D::Error>
+    where
+        D: serde::Deserializer<'de>,
+    {
+        const FIELDS: &[&str] = &[
+            "actor",
+            "erase_time",
+            "eraseTime",
+            "n_revisions",
+            "nRevisions",
+            "n_sessions",
+            "nSessions",
+            "n_takes",
+            "nTakes",
+            "n_bytes",
+            "nBytes",
+        ];
+
+        #[allow(clippy::enum_variant_names)]
+        enum GeneratedField {
+            Actor,
+            EraseTime,
+            NRevisions,
+            NSessions,
+            NTakes,
+            NBytes,
+        }
+        impl<'de> serde::Deserialize<'de> for GeneratedField {
+            fn deserialize<D>(deserializer: D) -> std::result::Result<GeneratedField, D::Error>
+            where
+                D: serde::Deserializer<'de>,
+            {
+                struct GeneratedVisitor;
+
+                impl serde::de::Visitor<'_> for GeneratedVisitor {
+                    type Value = GeneratedField;
+
+                    fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                        write!(formatter, "expected one of: {:?}", &FIELDS)
+                    }
+
+                    #[allow(unused_variables)]
+                    fn visit_str<E>(self, value: &str) -> std::result::Result<GeneratedField, E>
+                    where
+                        E: serde::de::Error,
+                    {
+                        match value {
+                            "actor" => Ok(GeneratedField::Actor),
+                            "eraseTime" | "erase_time" => Ok(GeneratedField::EraseTime),
+                            "nRevisions" | "n_revisions" => Ok(GeneratedField::NRevisions),
+                            "nSessions" | "n_sessions" => Ok(GeneratedField::NSessions),
+                            "nTakes" | "n_takes" => Ok(GeneratedField::NTakes),
+                            "nBytes" | "n_bytes" => Ok(GeneratedField::NBytes),
+                            _ => Err(serde::de::Error::unknown_field(value, FIELDS)),
+                        }
+                    }
+                }
+                deserializer.deserialize_identifier(GeneratedVisitor)
+            }
+        }
+        struct GeneratedVisitor;
+        impl<'de> serde::de::Visitor<'de> for GeneratedVisitor {
+            type Value = ErasureReceipt;
+
+            fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                formatter.write_str("struct frontalis.v1.ErasureReceipt")
+            }
+
+            fn visit_map<V>(self, mut map_: V) -> std::result::Result<ErasureReceipt, V::Error>
+                where
+                    V: serde::de::MapAccess<'de>,
+            {
+                let mut actor__ = None;
+                let mut erase_time__ = None;
+                let mut n_revisions__ = None;
+                let mut n_sessions__ = None;
+                let mut n_takes__ = None;
+                let mut n_bytes__ = None;
+                while let Some(k) = map_.next_key()? {
+                    match k {
+                        GeneratedField::Actor => {
+                            if actor__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("actor"));
+                            }
+                            actor__ = Some(map_.next_value()?);
+                        }
+                        GeneratedField::EraseTime => {
+                            if erase_time__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("eraseTime"));
+                            }
+                            erase_time__ = map_.next_value()?;
+                        }
+                        GeneratedField::NRevisions => {
+                            if n_revisions__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("nRevisions"));
+                            }
+                            n_revisions__ = 
+                                Some(map_.next_value::<::pbjson::private::NumberDeserialize<_>>()?.0)
+                            ;
+                        }
+                        GeneratedField::NSessions => {
+                            if n_sessions__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("nSessions"));
+                            }
+                            n_sessions__ = 
+                                Some(map_.next_value::<::pbjson::private::NumberDeserialize<_>>()?.0)
+                            ;
+                        }
+                        GeneratedField::NTakes => {
+                            if n_takes__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("nTakes"));
+                            }
+                            n_takes__ = 
+                                Some(map_.next_value::<::pbjson::private::NumberDeserialize<_>>()?.0)
+                            ;
+                        }
+                        GeneratedField::NBytes => {
+                            if n_bytes__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("nBytes"));
+                            }
+                            n_bytes__ = 
+                                Some(map_.next_value::<::pbjson::private::NumberDeserialize<_>>()?.0)
+                            ;
+                        }
+                    }
+                }
+                Ok(ErasureReceipt {
+                    actor: actor__.unwrap_or_default(),
+                    erase_time: erase_time__,
+                    n_revisions: n_revisions__.unwrap_or_default(),
+                    n_sessions: n_sessions__.unwrap_or_default(),
+                    n_takes: n_takes__.unwrap_or_default(),
+                    n_bytes: n_bytes__.unwrap_or_default(),
+                })
+            }
+        }
+        deserializer.deserialize_struct("frontalis.v1.ErasureReceipt", FIELDS, GeneratedVisitor)
     }
 }
 impl serde::Serialize for ExportActorRequest {
@@ -12523,6 +12978,137 @@ impl<'de> serde::Deserialize<'de> for StartTakeResponse {
         deserializer.deserialize_struct("frontalis.v1.StartTakeResponse", FIELDS, GeneratedVisitor)
     }
 }
+impl serde::Serialize for StateNumbers {
+    #[allow(deprecated)]
+    fn serialize<S>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error>
+    where
+        S: serde::Serializer,
+    {
+        use serde::ser::SerializeStruct;
+        let mut len = 0;
+        if !self.name.is_empty() {
+            len += 1;
+        }
+        if !self.reals.is_empty() {
+            len += 1;
+        }
+        if !self.integers.is_empty() {
+            len += 1;
+        }
+        let mut struct_ser = serializer.serialize_struct("frontalis.v1.StateNumbers", len)?;
+        if !self.name.is_empty() {
+            struct_ser.serialize_field("name", &self.name)?;
+        }
+        if !self.reals.is_empty() {
+            struct_ser.serialize_field("reals", &self.reals)?;
+        }
+        if !self.integers.is_empty() {
+            struct_ser.serialize_field("integers", &self.integers.iter().map(ToString::to_string).collect::<Vec<_>>())?;
+        }
+        struct_ser.end()
+    }
+}
+impl<'de> serde::Deserialize<'de> for StateNumbers {
+    #[allow(deprecated)]
+    fn deserialize<D>(deserializer: D) -> std::result::Result<Self, D::Error>
+    where
+        D: serde::Deserializer<'de>,
+    {
+        const FIELDS: &[&str] = &[
+            "name",
+            "reals",
+            "integers",
+        ];
+
+        #[allow(clippy::enum_variant_names)]
+        enum GeneratedField {
+            Name,
+            Reals,
+            Integers,
+        }
+        impl<'de> serde::Deserialize<'de> for GeneratedField {
+            fn deserialize<D>(deserializer: D) -> std::result::Result<GeneratedField, D::Error>
+            where
+                D: serde::Deserializer<'de>,
+            {
+                struct GeneratedVisitor;
+
+                impl serde::de::Visitor<'_> for GeneratedVisitor {
+                    type Value = GeneratedField;
+
+                    fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                        write!(formatter, "expected one of: {:?}", &FIELDS)
+                    }
+
+                    #[allow(unused_variables)]
+                    fn visit_str<E>(self, value: &str) -> std::result::Result<GeneratedField, E>
+                    where
+                        E: serde::de::Error,
+                    {
+                        match value {
+                            "name" => Ok(GeneratedField::Name),
+                            "reals" => Ok(GeneratedField::Reals),
+                            "integers" => Ok(GeneratedField::Integers),
+                            _ => Err(serde::de::Error::unknown_field(value, FIELDS)),
+                        }
+                    }
+                }
+                deserializer.deserialize_identifier(GeneratedVisitor)
+            }
+        }
+        struct GeneratedVisitor;
+        impl<'de> serde::de::Visitor<'de> for GeneratedVisitor {
+            type Value = StateNumbers;
+
+            fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                formatter.write_str("struct frontalis.v1.StateNumbers")
+            }
+
+            fn visit_map<V>(self, mut map_: V) -> std::result::Result<StateNumbers, V::Error>
+                where
+                    V: serde::de::MapAccess<'de>,
+            {
+                let mut name__ = None;
+                let mut reals__ = None;
+                let mut integers__ = None;
+                while let Some(k) = map_.next_key()? {
+                    match k {
+                        GeneratedField::Name => {
+                            if name__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("name"));
+                            }
+                            name__ = Some(map_.next_value()?);
+                        }
+                        GeneratedField::Reals => {
+                            if reals__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("reals"));
+                            }
+                            reals__ = 
+                                Some(map_.next_value::<Vec<::pbjson::private::NumberDeserialize<_>>>()?
+                                    .into_iter().map(|x| x.0).collect())
+                            ;
+                        }
+                        GeneratedField::Integers => {
+                            if integers__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("integers"));
+                            }
+                            integers__ = 
+                                Some(map_.next_value::<Vec<::pbjson::private::NumberDeserialize<_>>>()?
+                                    .into_iter().map(|x| x.0).collect())
+                            ;
+                        }
+                    }
+                }
+                Ok(StateNumbers {
+                    name: name__.unwrap_or_default(),
+                    reals: reals__.unwrap_or_default(),
+                    integers: integers__.unwrap_or_default(),
+                })
+            }
+        }
+        deserializer.deserialize_struct("frontalis.v1.StateNumbers", FIELDS, GeneratedVisitor)
+    }
+}
 impl serde::Serialize for StopTakeRequest {
     #[allow(deprecated)]
     fn serialize<S>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error>
@@ -13634,6 +14220,9 @@ impl serde::Serialize for Take {
         if self.with_images {
             len += 1;
         }
+        if !self.resolved_from.is_empty() {
+            len += 1;
+        }
         let mut struct_ser = serializer.serialize_struct("frontalis.v1.Take", len)?;
         if !self.name.is_empty() {
             struct_ser.serialize_field("name", &self.name)?;
@@ -13702,6 +14291,9 @@ impl serde::Serialize for Take {
         if self.with_images {
             struct_ser.serialize_field("withImages", &self.with_images)?;
         }
+        if !self.resolved_from.is_empty() {
+            struct_ser.serialize_field("resolvedFrom", &self.resolved_from)?;
+        }
         struct_ser.end()
     }
 }
@@ -13740,6 +14332,8 @@ impl<'de> serde::Deserialize<'de> for Take {
             "notes",
             "with_images",
             "withImages",
+            "resolved_from",
+            "resolvedFrom",
         ];
 
         #[allow(clippy::enum_variant_names)]
@@ -13763,6 +14357,7 @@ impl<'de> serde::Deserialize<'de> for Take {
             Circled,
             Notes,
             WithImages,
+            ResolvedFrom,
         }
         impl<'de> serde::Deserialize<'de> for GeneratedField {
             fn deserialize<D>(deserializer: D) -> std::result::Result<GeneratedField, D::Error>
@@ -13803,6 +14398,7 @@ impl<'de> serde::Deserialize<'de> for Take {
                             "circled" => Ok(GeneratedField::Circled),
                             "notes" => Ok(GeneratedField::Notes),
                             "withImages" | "with_images" => Ok(GeneratedField::WithImages),
+                            "resolvedFrom" | "resolved_from" => Ok(GeneratedField::ResolvedFrom),
                             _ => Err(serde::de::Error::unknown_field(value, FIELDS)),
                         }
                     }
@@ -13841,6 +14437,7 @@ impl<'de> serde::Deserialize<'de> for Take {
                 let mut circled__ = None;
                 let mut notes__ = None;
                 let mut with_images__ = None;
+                let mut resolved_from__ = None;
                 while let Some(k) = map_.next_key()? {
                     match k {
                         GeneratedField::Name => {
@@ -13969,6 +14566,12 @@ impl<'de> serde::Deserialize<'de> for Take {
                             }
                             with_images__ = Some(map_.next_value()?);
                         }
+                        GeneratedField::ResolvedFrom => {
+                            if resolved_from__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("resolvedFrom"));
+                            }
+                            resolved_from__ = Some(map_.next_value()?);
+                        }
                     }
                 }
                 Ok(Take {
@@ -13991,6 +14594,7 @@ impl<'de> serde::Deserialize<'de> for Take {
                     circled: circled__.unwrap_or_default(),
                     notes: notes__.unwrap_or_default(),
                     with_images: with_images__.unwrap_or_default(),
+                    resolved_from: resolved_from__.unwrap_or_default(),
                 })
             }
         }
@@ -14257,6 +14861,141 @@ impl<'de> serde::Deserialize<'de> for TakeChange {
         deserializer.deserialize_struct("frontalis.v1.TakeChange", FIELDS, GeneratedVisitor)
     }
 }
+impl serde::Serialize for TakeClock {
+    #[allow(deprecated)]
+    fn serialize<S>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error>
+    where
+        S: serde::Serializer,
+    {
+        use serde::ser::SerializeStruct;
+        let mut len = 0;
+        if self.clock.is_some() {
+            len += 1;
+        }
+        if self.server_time_nanos != 0 {
+            len += 1;
+        }
+        if self.unix_offset_nanos != 0 {
+            len += 1;
+        }
+        let mut struct_ser = serializer.serialize_struct("frontalis.v1.TakeClock", len)?;
+        if let Some(v) = self.clock.as_ref() {
+            struct_ser.serialize_field("clock", v)?;
+        }
+        if self.server_time_nanos != 0 {
+            #[allow(clippy::needless_borrow)]
+            #[allow(clippy::needless_borrows_for_generic_args)]
+            struct_ser.serialize_field("serverTimeNanos", ToString::to_string(&self.server_time_nanos).as_str())?;
+        }
+        if self.unix_offset_nanos != 0 {
+            #[allow(clippy::needless_borrow)]
+            #[allow(clippy::needless_borrows_for_generic_args)]
+            struct_ser.serialize_field("unixOffsetNanos", ToString::to_string(&self.unix_offset_nanos).as_str())?;
+        }
+        struct_ser.end()
+    }
+}
+impl<'de> serde::Deserialize<'de> for TakeClock {
+    #[allow(deprecated)]
+    fn deserialize<D>(deserializer: D) -> std::result::Result<Self, D::Error>
+    where
+        D: serde::Deserializer<'de>,
+    {
+        const FIELDS: &[&str] = &[
+            "clock",
+            "server_time_nanos",
+            "serverTimeNanos",
+            "unix_offset_nanos",
+            "unixOffsetNanos",
+        ];
+
+        #[allow(clippy::enum_variant_names)]
+        enum GeneratedField {
+            Clock,
+            ServerTimeNanos,
+            UnixOffsetNanos,
+        }
+        impl<'de> serde::Deserialize<'de> for GeneratedField {
+            fn deserialize<D>(deserializer: D) -> std::result::Result<GeneratedField, D::Error>
+            where
+                D: serde::Deserializer<'de>,
+            {
+                struct GeneratedVisitor;
+
+                impl serde::de::Visitor<'_> for GeneratedVisitor {
+                    type Value = GeneratedField;
+
+                    fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                        write!(formatter, "expected one of: {:?}", &FIELDS)
+                    }
+
+                    #[allow(unused_variables)]
+                    fn visit_str<E>(self, value: &str) -> std::result::Result<GeneratedField, E>
+                    where
+                        E: serde::de::Error,
+                    {
+                        match value {
+                            "clock" => Ok(GeneratedField::Clock),
+                            "serverTimeNanos" | "server_time_nanos" => Ok(GeneratedField::ServerTimeNanos),
+                            "unixOffsetNanos" | "unix_offset_nanos" => Ok(GeneratedField::UnixOffsetNanos),
+                            _ => Err(serde::de::Error::unknown_field(value, FIELDS)),
+                        }
+                    }
+                }
+                deserializer.deserialize_identifier(GeneratedVisitor)
+            }
+        }
+        struct GeneratedVisitor;
+        impl<'de> serde::de::Visitor<'de> for GeneratedVisitor {
+            type Value = TakeClock;
+
+            fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                formatter.write_str("struct frontalis.v1.TakeClock")
+            }
+
+            fn visit_map<V>(self, mut map_: V) -> std::result::Result<TakeClock, V::Error>
+                where
+                    V: serde::de::MapAccess<'de>,
+            {
+                let mut clock__ = None;
+                let mut server_time_nanos__ = None;
+                let mut unix_offset_nanos__ = None;
+                while let Some(k) = map_.next_key()? {
+                    match k {
+                        GeneratedField::Clock => {
+                            if clock__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("clock"));
+                            }
+                            clock__ = map_.next_value()?;
+                        }
+                        GeneratedField::ServerTimeNanos => {
+                            if server_time_nanos__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("serverTimeNanos"));
+                            }
+                            server_time_nanos__ = 
+                                Some(map_.next_value::<::pbjson::private::NumberDeserialize<_>>()?.0)
+                            ;
+                        }
+                        GeneratedField::UnixOffsetNanos => {
+                            if unix_offset_nanos__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("unixOffsetNanos"));
+                            }
+                            unix_offset_nanos__ = 
+                                Some(map_.next_value::<::pbjson::private::NumberDeserialize<_>>()?.0)
+                            ;
+                        }
+                    }
+                }
+                Ok(TakeClock {
+                    clock: clock__,
+                    server_time_nanos: server_time_nanos__.unwrap_or_default(),
+                    unix_offset_nanos: unix_offset_nanos__.unwrap_or_default(),
+                })
+            }
+        }
+        deserializer.deserialize_struct("frontalis.v1.TakeClock", FIELDS, GeneratedVisitor)
+    }
+}
 impl serde::Serialize for TakeCut {
     #[allow(deprecated)]
     fn serialize<S>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error>
@@ -14394,6 +15133,12 @@ impl serde::Serialize for TakeEvent {
                 take_event::Event::Cut(v) => {
                     struct_ser.serialize_field("cut", v)?;
                 }
+                take_event::Event::AnalysisState(v) => {
+                    struct_ser.serialize_field("analysisState", v)?;
+                }
+                take_event::Event::Clock(v) => {
+                    struct_ser.serialize_field("clock", v)?;
+                }
             }
         }
         struct_ser.end()
@@ -14415,6 +15160,9 @@ impl<'de> serde::Deserialize<'de> for TakeEvent {
             "alignment",
             "stop",
             "cut",
+            "analysis_state",
+            "analysisState",
+            "clock",
         ];
 
         #[allow(clippy::enum_variant_names)]
@@ -14428,6 +15176,8 @@ impl<'de> serde::Deserialize<'de> for TakeEvent {
             Alignment,
             Stop,
             Cut,
+            AnalysisState,
+            Clock,
         }
         impl<'de> serde::Deserialize<'de> for GeneratedField {
             fn deserialize<D>(deserializer: D) -> std::result::Result<GeneratedField, D::Error>
@@ -14458,6 +15208,8 @@ impl<'de> serde::Deserialize<'de> for TakeEvent {
                             "alignment" => Ok(GeneratedField::Alignment),
                             "stop" => Ok(GeneratedField::Stop),
                             "cut" => Ok(GeneratedField::Cut),
+                            "analysisState" | "analysis_state" => Ok(GeneratedField::AnalysisState),
+                            "clock" => Ok(GeneratedField::Clock),
                             _ => Err(serde::de::Error::unknown_field(value, FIELDS)),
                         }
                     }
@@ -14541,6 +15293,20 @@ impl<'de> serde::Deserialize<'de> for TakeEvent {
                                 return Err(serde::de::Error::duplicate_field("cut"));
                             }
                             event__ = map_.next_value::<::std::option::Option<_>>()?.map(take_event::Event::Cut)
+;
+                        }
+                        GeneratedField::AnalysisState => {
+                            if event__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("analysisState"));
+                            }
+                            event__ = map_.next_value::<::std::option::Option<_>>()?.map(take_event::Event::AnalysisState)
+;
+                        }
+                        GeneratedField::Clock => {
+                            if event__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("clock"));
+                            }
+                            event__ = map_.next_value::<::std::option::Option<_>>()?.map(take_event::Event::Clock)
 ;
                         }
                     }
@@ -15030,6 +15796,18 @@ impl serde::Serialize for TakeHeader {
         if self.next_frame != 0 {
             len += 1;
         }
+        if !self.resolved_from.is_empty() {
+            len += 1;
+        }
+        if self.pre_roll_from != 0 {
+            len += 1;
+        }
+        if self.last_capture_time_nanos.is_some() {
+            len += 1;
+        }
+        if self.with_images {
+            len += 1;
+        }
         let mut struct_ser = serializer.serialize_struct("frontalis.v1.TakeHeader", len)?;
         if !self.take.is_empty() {
             struct_ser.serialize_field("take", &self.take)?;
@@ -15085,6 +15863,22 @@ impl serde::Serialize for TakeHeader {
             #[allow(clippy::needless_borrows_for_generic_args)]
             struct_ser.serialize_field("nextFrame", ToString::to_string(&self.next_frame).as_str())?;
         }
+        if !self.resolved_from.is_empty() {
+            struct_ser.serialize_field("resolvedFrom", &self.resolved_from)?;
+        }
+        if self.pre_roll_from != 0 {
+            #[allow(clippy::needless_borrow)]
+            #[allow(clippy::needless_borrows_for_generic_args)]
+            struct_ser.serialize_field("preRollFrom", ToString::to_string(&self.pre_roll_from).as_str())?;
+        }
+        if let Some(v) = self.last_capture_time_nanos.as_ref() {
+            #[allow(clippy::needless_borrow)]
+            #[allow(clippy::needless_borrows_for_generic_args)]
+            struct_ser.serialize_field("lastCaptureTimeNanos", ToString::to_string(&v).as_str())?;
+        }
+        if self.with_images {
+            struct_ser.serialize_field("withImages", &self.with_images)?;
+        }
         struct_ser.end()
     }
 }
@@ -15117,6 +15911,14 @@ impl<'de> serde::Deserialize<'de> for TakeHeader {
             "serverVersion",
             "next_frame",
             "nextFrame",
+            "resolved_from",
+            "resolvedFrom",
+            "pre_roll_from",
+            "preRollFrom",
+            "last_capture_time_nanos",
+            "lastCaptureTimeNanos",
+            "with_images",
+            "withImages",
         ];
 
         #[allow(clippy::enum_variant_names)]
@@ -15137,6 +15939,10 @@ impl<'de> serde::Deserialize<'de> for TakeHeader {
             NextSequence,
             ServerVersion,
             NextFrame,
+            ResolvedFrom,
+            PreRollFrom,
+            LastCaptureTimeNanos,
+            WithImages,
         }
         impl<'de> serde::Deserialize<'de> for GeneratedField {
             fn deserialize<D>(deserializer: D) -> std::result::Result<GeneratedField, D::Error>
@@ -15174,6 +15980,10 @@ impl<'de> serde::Deserialize<'de> for TakeHeader {
                             "nextSequence" | "next_sequence" => Ok(GeneratedField::NextSequence),
                             "serverVersion" | "server_version" => Ok(GeneratedField::ServerVersion),
                             "nextFrame" | "next_frame" => Ok(GeneratedField::NextFrame),
+                            "resolvedFrom" | "resolved_from" => Ok(GeneratedField::ResolvedFrom),
+                            "preRollFrom" | "pre_roll_from" => Ok(GeneratedField::PreRollFrom),
+                            "lastCaptureTimeNanos" | "last_capture_time_nanos" => Ok(GeneratedField::LastCaptureTimeNanos),
+                            "withImages" | "with_images" => Ok(GeneratedField::WithImages),
                             _ => Err(serde::de::Error::unknown_field(value, FIELDS)),
                         }
                     }
@@ -15209,6 +16019,10 @@ impl<'de> serde::Deserialize<'de> for TakeHeader {
                 let mut next_sequence__ = None;
                 let mut server_version__ = None;
                 let mut next_frame__ = None;
+                let mut resolved_from__ = None;
+                let mut pre_roll_from__ = None;
+                let mut last_capture_time_nanos__ = None;
+                let mut with_images__ = None;
                 while let Some(k) = map_.next_key()? {
                     match k {
                         GeneratedField::Take => {
@@ -15317,6 +16131,34 @@ impl<'de> serde::Deserialize<'de> for TakeHeader {
                                 Some(map_.next_value::<::pbjson::private::NumberDeserialize<_>>()?.0)
                             ;
                         }
+                        GeneratedField::ResolvedFrom => {
+                            if resolved_from__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("resolvedFrom"));
+                            }
+                            resolved_from__ = Some(map_.next_value()?);
+                        }
+                        GeneratedField::PreRollFrom => {
+                            if pre_roll_from__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("preRollFrom"));
+                            }
+                            pre_roll_from__ = 
+                                Some(map_.next_value::<::pbjson::private::NumberDeserialize<_>>()?.0)
+                            ;
+                        }
+                        GeneratedField::LastCaptureTimeNanos => {
+                            if last_capture_time_nanos__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("lastCaptureTimeNanos"));
+                            }
+                            last_capture_time_nanos__ = 
+                                map_.next_value::<::std::option::Option<::pbjson::private::NumberDeserialize<_>>>()?.map(|x| x.0)
+                            ;
+                        }
+                        GeneratedField::WithImages => {
+                            if with_images__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("withImages"));
+                            }
+                            with_images__ = Some(map_.next_value()?);
+                        }
                     }
                 }
                 Ok(TakeHeader {
@@ -15336,6 +16178,10 @@ impl<'de> serde::Deserialize<'de> for TakeHeader {
                     next_sequence: next_sequence__.unwrap_or_default(),
                     server_version: server_version__.unwrap_or_default(),
                     next_frame: next_frame__.unwrap_or_default(),
+                    resolved_from: resolved_from__.unwrap_or_default(),
+                    pre_roll_from: pre_roll_from__.unwrap_or_default(),
+                    last_capture_time_nanos: last_capture_time_nanos__,
+                    with_images: with_images__.unwrap_or_default(),
                 })
             }
         }
@@ -15458,6 +16304,12 @@ impl serde::Serialize for TakeSource {
         if self.rate_hz != 0. {
             len += 1;
         }
+        if self.continued {
+            len += 1;
+        }
+        if self.is_other {
+            len += 1;
+        }
         let mut struct_ser = serializer.serialize_struct("frontalis.v1.TakeSource", len)?;
         if !self.publisher.is_empty() {
             struct_ser.serialize_field("publisher", &self.publisher)?;
@@ -15478,6 +16330,12 @@ impl serde::Serialize for TakeSource {
         if self.rate_hz != 0. {
             struct_ser.serialize_field("rateHz", &self.rate_hz)?;
         }
+        if self.continued {
+            struct_ser.serialize_field("continued", &self.continued)?;
+        }
+        if self.is_other {
+            struct_ser.serialize_field("isOther", &self.is_other)?;
+        }
         struct_ser.end()
     }
 }
@@ -15495,6 +16353,9 @@ impl<'de> serde::Deserialize<'de> for TakeSource {
             "markerNames",
             "rate_hz",
             "rateHz",
+            "continued",
+            "is_other",
+            "isOther",
         ];
 
         #[allow(clippy::enum_variant_names)]
@@ -15504,6 +16365,8 @@ impl<'de> serde::Deserialize<'de> for TakeSource {
             Unit,
             MarkerNames,
             RateHz,
+            Continued,
+            IsOther,
         }
         impl<'de> serde::Deserialize<'de> for GeneratedField {
             fn deserialize<D>(deserializer: D) -> std::result::Result<GeneratedField, D::Error>
@@ -15530,6 +16393,8 @@ impl<'de> serde::Deserialize<'de> for TakeSource {
                             "unit" => Ok(GeneratedField::Unit),
                             "markerNames" | "marker_names" => Ok(GeneratedField::MarkerNames),
                             "rateHz" | "rate_hz" => Ok(GeneratedField::RateHz),
+                            "continued" => Ok(GeneratedField::Continued),
+                            "isOther" | "is_other" => Ok(GeneratedField::IsOther),
                             _ => Err(serde::de::Error::unknown_field(value, FIELDS)),
                         }
                     }
@@ -15554,6 +16419,8 @@ impl<'de> serde::Deserialize<'de> for TakeSource {
                 let mut unit__ = None;
                 let mut marker_names__ = None;
                 let mut rate_hz__ = None;
+                let mut continued__ = None;
+                let mut is_other__ = None;
                 while let Some(k) = map_.next_key()? {
                     match k {
                         GeneratedField::Publisher => {
@@ -15590,6 +16457,18 @@ impl<'de> serde::Deserialize<'de> for TakeSource {
                                 Some(map_.next_value::<::pbjson::private::NumberDeserialize<_>>()?.0)
                             ;
                         }
+                        GeneratedField::Continued => {
+                            if continued__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("continued"));
+                            }
+                            continued__ = Some(map_.next_value()?);
+                        }
+                        GeneratedField::IsOther => {
+                            if is_other__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("isOther"));
+                            }
+                            is_other__ = Some(map_.next_value()?);
+                        }
                     }
                 }
                 Ok(TakeSource {
@@ -15598,6 +16477,8 @@ impl<'de> serde::Deserialize<'de> for TakeSource {
                     unit: unit__.unwrap_or_default(),
                     marker_names: marker_names__.unwrap_or_default(),
                     rate_hz: rate_hz__.unwrap_or_default(),
+                    continued: continued__.unwrap_or_default(),
+                    is_other: is_other__.unwrap_or_default(),
                 })
             }
         }
@@ -15617,6 +16498,7 @@ impl serde::Serialize for TakeState {
             Self::Degraded => "TAKE_STATE_DEGRADED",
             Self::TruncatedDiskFull => "TAKE_STATE_TRUNCATED_DISK_FULL",
             Self::Quarantined => "TAKE_STATE_QUARANTINED",
+            Self::Recovering => "TAKE_STATE_RECOVERING",
         };
         serializer.serialize_str(variant)
     }
@@ -15634,6 +16516,7 @@ impl<'de> serde::Deserialize<'de> for TakeState {
             "TAKE_STATE_DEGRADED",
             "TAKE_STATE_TRUNCATED_DISK_FULL",
             "TAKE_STATE_QUARANTINED",
+            "TAKE_STATE_RECOVERING",
         ];
 
         struct GeneratedVisitor;
@@ -15680,6 +16563,7 @@ impl<'de> serde::Deserialize<'de> for TakeState {
                     "TAKE_STATE_DEGRADED" => Ok(TakeState::Degraded),
                     "TAKE_STATE_TRUNCATED_DISK_FULL" => Ok(TakeState::TruncatedDiskFull),
                     "TAKE_STATE_QUARANTINED" => Ok(TakeState::Quarantined),
+                    "TAKE_STATE_RECOVERING" => Ok(TakeState::Recovering),
                     _ => Err(serde::de::Error::unknown_variant(value, FIELDS)),
                 }
             }

@@ -158,6 +158,11 @@ impl CurveHub {
         self.shared().window.newest_sequence()
     }
 
+    /// The oldest sample that is kept; the next one to come when none is.
+    pub fn oldest_sequence(&self) -> u64 {
+        self.shared().window.first_sequence()
+    }
+
     /// Hands entries to every subscriber, in order, and returns at once; `outgoing` is left empty.
     pub fn publish(&self, outgoing: &mut Vec<Outgoing>) {
         if outgoing.is_empty() {
@@ -273,6 +278,11 @@ impl CurveHub {
             }),
             _ => Ok(()),
         }
+    }
+
+    /// The state and the age of the newest frame, now.
+    pub fn present_state(&self) -> StreamState {
+        self.stream_state(self.state())
     }
 
     pub(super) fn stream_state(&self, session_state: SessionState) -> StreamState {

@@ -24,6 +24,8 @@ pub struct SampleTag {
     pub source_frame: u64,
     /// Time of day on the stage, when it was valid.
     pub timecode: Option<Timecode>,
+    /// The capture time on the server's clock, once the publisher's clock is known.
+    pub capture_time_server_nanos: Option<i64>,
     /// The frame's timecode was not one, and was dropped.
     pub timecode_invalid: bool,
     /// The capture time did not grow.

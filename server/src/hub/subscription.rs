@@ -2,7 +2,9 @@
 //!
 //! `LATEST`: the newest unsent sample, against credits or at a pace; what is passed over is counted (CONTRACTS D-14 to
 //! D-16), as soon as it can no longer be sent. `EVERY_FRAME`: everything from a position on, in bounded batches; falling out of the window ends it with the
-//! exact lost range (D-17, D-18). Both hear every state, and a heartbeat when nothing else comes (D-22, D-23).
+//! exact lost range (D-17, D-18), unless whoever holds it has that range from elsewhere. Both hear every state, and a heartbeat when nothing else comes (D-22, D-23).
+
+mod elsewhere;
 
 use std::{
     sync::{Arc, atomic::Ordering},
@@ -66,6 +68,9 @@ pub enum StartAt {
     Sequence(u64),
     /// With the oldest that is kept.
     Oldest,
+    /// With this one, which is no longer kept here: the first thing that is told is what is lost, for somebody who has it from
+    /// elsewhere.
+    Behind(u64),
 }
 
 /// Why a subscription does not start.
@@ -93,7 +98,7 @@ pub enum SubscribeError {
 pub enum Delivered {
     /// Samples, gaps, a state, or several of these.
     Update(Update),
-    /// It fell out of the window. Nothing follows.
+    /// It fell out of the window. Nothing follows, unless it [rejoins](Subscription::rejoin).
     Lagged(LostRange),
     /// The hub closed. Nothing follows.
     Closed(Closing),
@@ -292,19 +297,23 @@ impl Subscription {
             let nanos = hub.now_nanos() - newest.solved_time_nanos;
             shared.sent.add(nanos);
         }
-        if let Some((state, n_heard)) = shared.transition_after(self.n_states_heard) {
-            self.n_states_heard = n_heard;
-            self.announced = true;
-            update.state = Some(hub.stream_state(state));
-        } else if !self.announced {
-            self.announced = true;
-            update.state = Some(hub.stream_state(shared.state));
-        }
+        update.state = self.unheard_state(&shared);
         update.skipped_samples = self.skipped_so_far(&shared);
         if !update.is_empty() {
             return Some(Delivered::Update(update));
         }
         shared.closing.clone().map(Delivered::Closed)
+    }
+
+    /// The next state that it has not heard; at first, the present one.
+    fn unheard_state(&mut self, shared: &Shared) -> Option<StreamState> {
+        let transition = shared.transition_after(self.n_states_heard);
+        let is_first = !std::mem::replace(&mut self.announced, true);
+        if let Some((state, n_heard)) = transition {
+            self.n_states_heard = n_heard;
+            return Some(self.hub.stream_state(state));
+        }
+        is_first.then(|| self.hub.stream_state(shared.state))
     }
 
     fn take_samples(
@@ -370,6 +379,7 @@ impl Reading {
                     StartAt::Now => shared.window.newest(),
                     StartAt::Oldest => shared.window.oldest(),
                     StartAt::Sequence(sequence) => shared.window.seek(sequence)?,
+                    StartAt::Behind(sequence) => Cursor::before_all(sequence, 0),
                 };
                 shared.window.reader_at(&cursor);
                 Ok(Self::Every(cursor))

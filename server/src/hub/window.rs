@@ -60,6 +60,17 @@ pub(super) struct Cursor {
     pub(super) last_frame: u64,
 }
 
+impl Cursor {
+    /// Before everything that was ever kept, for a reader of sample `sequence` that knows all frames through `last_frame`.
+    pub(super) fn before_all(sequence: u64, last_frame: u64) -> Self {
+        Self {
+            position: 0,
+            sequence,
+            last_frame,
+        }
+    }
+}
+
 /// What a reader missed, both ends included.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LostRange {
@@ -223,6 +234,18 @@ impl Window {
         }
         let offset = self.entries.partition_point(|it| it.sequence < sequence);
         Ok(self.cursor_at(offset))
+    }
+
+    /// At sample `sequence`, behind the gaps before it that a reader of all through `last_frame` has read elsewhere.
+    pub(super) fn seek_after(&self, sequence: u64, last_frame: u64) -> Result<Cursor, RangeError> {
+        let mut cursor = self.seek(sequence)?;
+        let is_known = |it: &&Entry| matches!(it, Entry::Gap(gap) if gap.last <= last_frame);
+        let n_known = self
+            .read(&cursor)
+            .map_or(0, |entries| entries.take_while(is_known).count());
+        cursor.position += n_known as u64;
+        cursor.last_frame = cursor.last_frame.max(last_frame);
+        Ok(cursor)
     }
 
     /// Before everything that is kept.

@@ -7,6 +7,8 @@ mod ending;
 pub mod messages;
 mod opening;
 pub mod reasons;
+#[cfg(test)]
+mod recorded_tests;
 pub(super) mod refusal;
 pub mod server;
 pub mod sessions;

@@ -37,11 +37,8 @@ use utoipa::openapi::OpenApi;
 use utoipa_axum::{router::OpenApiRouter, routes};
 
 use self::openapi::Document;
-use super::door::Services;
-use crate::{
-    shutdown::Phases,
-    telemetry::{Metrics, Protocol},
-};
+use super::{door::Services, readiness::Readiness};
+use crate::telemetry::{Metrics, Protocol};
 
 pub use call::LargeBodies;
 pub use draining::{Draining, heard_out};
@@ -55,8 +52,8 @@ pub struct Doors {
     pub services: Services,
     /// Figures.
     pub metrics: Metrics,
-    /// Whether the server drains.
-    pub phases: Phases,
+    /// What the server is ready for.
+    pub readiness: Readiness,
     /// Places for bodies that are large.
     pub large_bodies: LargeBodies,
 }

@@ -55,7 +55,7 @@ impl TakeExports {
     ///
     /// # Errors
     ///
-    /// `EXPORTS`, `EXPORT_FORMAT`, `TAKE_UNREADABLE`, `ACTOR`, or that the storage failed.
+    /// `TAKE_RECOVERING`, `TAKE_FORMAT`, `EXPORTS`, `EXPORT_FORMAT`, `TAKE_UNREADABLE`, `ACTOR`, or that the storage failed.
     pub async fn export(
         &self,
         peer: &Peer,
@@ -63,6 +63,7 @@ impl TakeExports {
         format: TakeFormat,
     ) -> Result<impl Stream<Item = Result<v1::ExportTakeResponse, Status>> + Send + 'static, Status>
     {
+        self.takes.check_readable(row).await?;
         let place = self.places.take(peer)?;
         let source = self.source(row, format).await?;
         let started = self.workers.run(move || Export::start(source, format));
@@ -98,8 +99,9 @@ impl TakeExports {
     ///
     /// # Errors
     ///
-    /// `EXPORTS`, or that the storage failed.
+    /// `TAKE_RECOVERING`, `TAKE_FORMAT`, `EXPORTS`, or that the storage failed.
     pub async fn open(&self, peer: &Peer, row: TakeRow) -> Result<OpenTakeFile, Status> {
+        self.takes.check_readable(&row).await?;
         let place = self.places.take(peer)?;
         let source = self.takes.source(&row);
         let open = move || open_stored(&*source.fs, &source.file, source.n_bytes);

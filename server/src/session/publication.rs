@@ -5,12 +5,13 @@ use std::sync::Arc;
 use frontalis_analysis::{marker_analysis::alignment::AlignmentError, space::LengthUnit};
 
 use super::{
+    clock_estimate::ClockExchange,
     frame::{IncomingFrame, Rejection},
     mailbox::Mailbox,
     settings::StreamShape,
     shared::Shared,
 };
-use crate::name::PublisherId;
+use crate::name::{PublisherId, SessionId};
 
 /// What happens when frames come faster than they are solved.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -73,6 +74,9 @@ pub enum Offer {
     Rejected(Rejection),
     /// Not taken yet: wait, then offer it again.
     Wait(IncomingFrame, Wait),
+    /// Its number was passed too long ago to know of it here: it is to be [settled](Publication::settle) by what the take has
+    /// under that number.
+    Unsure(IncomingFrame),
 }
 
 /// What an offer waits for.
@@ -158,6 +162,24 @@ impl Publication {
         Ok(offer)
     }
 
+    /// Judges a frame again that was [`Offer::Unsure`]; `in_take` is the hash of the content that the session's take has under
+    /// its number, if it has any (CONTRACTS D-6a).
+    ///
+    /// # Errors
+    ///
+    /// [`PublishEnd`] when the publication is over, by this frame or before.
+    pub fn settle(&self, frame: &IncomingFrame, in_take: Option<u64>) -> Result<Offer, PublishEnd> {
+        self.check()?;
+        let now_nanos = self.session.clock.now_nanos();
+        let mut intake = self.session.intake();
+        intake.offer_known(&self.mailbox, frame, in_take, now_nanos)
+    }
+
+    /// The session that is published into.
+    pub fn session(&self) -> &SessionId {
+        &self.session.id
+    }
+
     /// Counts a frame that is not valid in itself.
     ///
     /// # Errors
@@ -177,6 +199,16 @@ impl Publication {
         self.check()?;
         let now_nanos = self.session.clock.now_nanos();
         self.session.intake().renew(&self.mailbox, now_nanos)
+    }
+
+    /// Takes in an exchange with the publisher's clock.
+    ///
+    /// # Errors
+    ///
+    /// [`PublishEnd`] when the publication is over.
+    pub fn exchange(&self, exchange: ClockExchange) -> Result<(), PublishEnd> {
+        self.check()?;
+        self.session.intake().exchange(&self.mailbox, exchange)
     }
 
     /// Whether the publication is still in force.

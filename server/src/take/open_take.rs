@@ -2,7 +2,7 @@
 
 use std::{
     io,
-    path::PathBuf,
+    path::{Path, PathBuf},
     sync::{Arc, Mutex, MutexGuard, PoisonError},
 };
 
@@ -10,15 +10,18 @@ use frontalis_proto::v1;
 use prost::Message as _;
 
 use super::{
-    channel::{self, Channel},
+    channel::Channel,
     chunk::{ChunkBuffer, Message},
+    disk_room::IngestRate,
     figures::TakeFigures,
+    growth::{Growth, Written},
+    head::growing_head,
 };
 use crate::{
     executor::Workers,
     fs::{AppendFile, Fs},
     name::TakeId,
-    session::SessionHandle,
+    session::{RecordedFrame, SessionHandle},
 };
 
 /// How a recording goes.
@@ -42,34 +45,52 @@ pub fn file_name(id: &TakeId) -> String {
 pub(super) struct OpenTake {
     pub(super) id: TakeId,
     pub(super) session: SessionHandle,
+    /// What of it can be read.
+    pub(super) growth: Arc<Growth>,
     pending: Mutex<Pending>,
     /// `None` once nothing is written any more.
     file: tokio::sync::Mutex<Option<Box<dyn AppendFile>>>,
+    ingest: Arc<IngestRate>,
 }
 
 #[derive(Debug)]
 struct Pending {
     chunk: ChunkBuffer,
     next_sequences: [u32; 3],
-    /// Last frame of the chunk.
-    through: u64,
+    /// With the chunk.
+    written: Written,
+    /// Before the chunk.
+    written_before: Written,
     /// Of all that was added.
     figures: TakeFigures,
+    /// Of what is on stable storage.
+    committed: TakeFigures,
+    /// Of what is on stable storage.
     n_bytes: u64,
     condition: Condition,
 }
 
 impl OpenTake {
     /// A take whose file exists with its head.
-    fn new(id: TakeId, session: SessionHandle, file: Box<dyn AppendFile>, n_bytes: u64) -> Self {
+    fn new(
+        id: TakeId,
+        session: SessionHandle,
+        file: Box<dyn AppendFile>,
+        n_bytes: u64,
+        ingest: Arc<IngestRate>,
+    ) -> Self {
         Self {
             id,
+            growth: Arc::new(Growth::new(session.run(), n_bytes)),
             session,
+            ingest,
             pending: Mutex::new(Pending {
                 chunk: ChunkBuffer::default(),
                 next_sequences: [0; 3],
-                through: 0,
+                written: Written::default(),
+                written_before: Written::default(),
                 figures: TakeFigures::default(),
+                committed: TakeFigures::default(),
                 n_bytes,
                 condition: Condition::Sound,
             }),
@@ -84,30 +105,33 @@ impl OpenTake {
         fs: Arc<dyn Fs>,
         dir: PathBuf,
         workers: &Workers,
+        ingest: Arc<IngestRate>,
     ) -> io::Result<Self> {
         let name = file_name(&id);
         let made = workers.run(move || {
-            let head = channel::head().map_err(io::Error::other)?;
-            let mut file = fs.create(&dir.join(name))?;
-            file.append(&head)?;
-            file.sync()?;
-            fs.sync_dir(&dir)?;
-            Ok::<_, io::Error>((file, head.len() as u64))
+            let begun = begin(&*fs, &dir, &name);
+            let is_ours = |error: &io::Error| error.kind() != io::ErrorKind::AlreadyExists;
+            if begun.as_ref().is_err_and(is_ours) {
+                // What cannot be removed now is a take that never began, and is removed at the next start.
+                drop(fs.remove(&dir.join(&name)));
+            }
+            begun
         });
         let (file, n_bytes) = made.await?;
-        Ok(Self::new(id, session, file, n_bytes))
+        Ok(Self::new(id, session, file, n_bytes, ingest))
     }
 
-    pub(super) fn add_frame(&self, number: u64, sent: &[u8], time_nanos: u64) {
+    pub(super) fn add_frame(&self, frame: &RecordedFrame, time_nanos: u64) {
         let mut pending = self.pending();
-        pending.through = pending.through.max(number);
-        pending.figures.count_frame(number);
-        pending.add(Channel::Markers, sent, time_nanos);
+        pending.written.add_frame(frame.number);
+        pending.figures.count_frame(frame.number, frame.timecode);
+        pending.add(Channel::Markers, &frame.sent, time_nanos);
     }
 
     pub(super) fn add_sample(&self, sample: &v1::CurveSample, time_nanos: u64) {
         let mut pending = self.pending();
         pending.figures.n_samples += 1;
+        pending.written.add_sample(sample.sequence, sample.frame);
         pending.add(Channel::Curves, &sample.encode_to_vec(), time_nanos);
     }
 
@@ -117,9 +141,15 @@ impl OpenTake {
         self.pending().add(Channel::Events, &data, time_nanos);
     }
 
+    /// Of all that was added, on stable storage or not.
+    pub(super) fn figures_added(&self) -> TakeFigures {
+        self.pending().figures
+    }
+
+    /// What is on stable storage, the length of the file that far, and how it goes.
     pub(super) fn figures(&self) -> (TakeFigures, u64, Condition) {
         let pending = self.pending();
-        (pending.figures, pending.n_bytes, pending.condition)
+        (pending.committed, pending.n_bytes, pending.condition)
     }
 
     pub(super) fn has_pending(&self) -> bool {
@@ -132,14 +162,21 @@ impl OpenTake {
         let Some(mut file) = writing.take() else {
             return;
         };
-        let (chunk, through) = {
+        let (chunk, before, through, figures) = {
             let mut pending = self.pending();
             if pending.chunk.is_empty() {
                 drop(pending);
                 *writing = Some(file);
                 return;
             }
-            (pending.chunk.take(), pending.through)
+            let before = pending.written_before;
+            pending.written_before = pending.written;
+            (
+                pending.chunk.take(),
+                before,
+                pending.written,
+                pending.figures,
+            )
         };
         let n_bytes = chunk.len() as u64;
         let written = workers.run(move || {
@@ -150,8 +187,14 @@ impl OpenTake {
         match written.await {
             Ok(file) => {
                 *writing = Some(file);
-                self.pending().n_bytes += n_bytes;
-                self.session.set_durable_through(through);
+                {
+                    let mut pending = self.pending();
+                    pending.n_bytes += n_bytes;
+                    pending.committed = figures;
+                }
+                self.ingest.count(n_bytes);
+                self.growth.commit(n_bytes, before, through);
+                self.session.set_durable_through(through.frames_through);
             }
             Err(error) => self.fail(&error),
         }
@@ -171,11 +214,22 @@ impl OpenTake {
     /// Nothing is written any more.
     pub(super) async fn close(&self) {
         self.file.lock().await.take();
+        self.growth.end();
     }
 
     fn pending(&self) -> MutexGuard<'_, Pending> {
         self.pending.lock().unwrap_or_else(PoisonError::into_inner)
     }
+}
+
+/// A new file with its head, both on stable storage.
+fn begin(fs: &dyn Fs, dir: &Path, name: &str) -> io::Result<(Box<dyn AppendFile>, u64)> {
+    let head = growing_head().map_err(io::Error::other)?;
+    let mut file = fs.create(&dir.join(name))?;
+    file.append(head)?;
+    file.sync()?;
+    fs.sync_dir(dir)?;
+    Ok((file, head.len() as u64))
 }
 
 impl Pending {

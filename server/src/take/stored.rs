@@ -2,7 +2,7 @@
 
 use std::{io, path::Path};
 
-use super::channel;
+use super::{head, head::Form, scan::ScanError};
 use crate::fs::{Fs, ReadFile};
 
 /// An open file, which stays what it was when it was opened.
@@ -24,24 +24,16 @@ pub struct StoredFile {
 pub fn open_stored(fs: &dyn Fs, file: &Path, n_bytes: u64) -> io::Result<StoredFile> {
     let mut file = fs.open(file)?;
     let size = file.size()?;
-    let head = channel::head().map_err(io::Error::other)?;
-    let is_growing = starts_with(&mut *file, &head)?;
+    let is_growing = match head::read(&mut *file, size) {
+        Ok(head) => head.form == Form::Growing,
+        Err(ScanError::Io(error)) => return Err(error),
+        // Whatever it is, it does not grow.
+        Err(_) => false,
+    };
     let n_bytes = if is_growing { size.min(n_bytes) } else { size };
     Ok(StoredFile {
         file,
         n_bytes,
         is_growing,
     })
-}
-
-fn starts_with(file: &mut dyn ReadFile, head: &[u8]) -> io::Result<bool> {
-    let mut start = vec![0; head.len()];
-    let mut n_read = 0;
-    while n_read < start.len() {
-        match file.read_at(n_read as u64, &mut start[n_read..])? {
-            0 => return Ok(false),
-            n => n_read += n,
-        }
-    }
-    Ok(start == head)
 }

@@ -151,47 +151,56 @@ mod tests {
         assert!(timecode(&v1::Timecode::default()).is_none());
     }
 
-    #[test]
-    fn a25_a_time_of_day_that_cannot_occur_is_none() {
-        let sent = v1::Timecode {
-            minutes: 1,
-            frames: 2,
+    fn at(hours: u32, minutes: u32, seconds: u32, frames: u32) -> v1::Timecode {
+        v1::Timecode {
+            hours,
+            minutes,
+            seconds,
+            frames,
             rate_numerator: 30_000,
             rate_denominator: 1_001,
             drop_frame: true,
             ..v1::Timecode::default()
-        };
-        assert!(timecode(&sent).is_some());
-        let fast = v1::Timecode {
+        }
+    }
+
+    #[test]
+    fn a25_the_last_frame_of_a_day_occurs_and_the_next_does_not() {
+        assert!(timecode(&at(23, 59, 59, 29)).is_some());
+        assert!(timecode(&at(25, 0, 0, 0)).is_none());
+        assert!(timecode(&at(23, 59, 59, 30)).is_none());
+    }
+
+    #[test]
+    fn a25_dropped_numbers_do_not_occur() {
+        assert!(timecode(&at(1, 1, 0, 0)).is_none());
+        assert!(timecode(&at(1, 1, 0, 1)).is_none());
+        assert!(timecode(&at(1, 1, 0, 2)).is_some());
+        assert!(timecode(&at(1, 10, 0, 0)).is_some());
+        let at_60 = |frames| v1::Timecode {
             rate_numerator: 60_000,
-            frames: 4,
-            ..sent
+            ..at(1, 1, 0, frames)
         };
-        assert!(timecode(&fast).is_some());
-        for broken in [
-            v1::Timecode { hours: 25, ..sent },
-            v1::Timecode { frames: 30, ..sent },
-            v1::Timecode { frames: 1, ..sent },
-            v1::Timecode { frames: 3, ..fast },
-            v1::Timecode {
-                rate_numerator: 25,
-                rate_denominator: 1,
-                ..sent
-            },
-            v1::Timecode {
-                rate_denominator: 0,
-                ..sent
-            },
-            v1::Timecode {
-                sub_frame: 1.0,
-                ..sent
-            },
-            v1::Timecode {
-                sub_frame: f32::NAN,
-                ..sent
-            },
-        ] {
-            assert!(timecode(&broken).is_none(), "{broken:?}");
+        assert!(timecode(&at_60(3)).is_none());
+        assert!(timecode(&at_60(4)).is_some());
+    }
+
+    #[test]
+    fn a25_frames_are_dropped_at_two_rates_only_and_fractions_are_fractions() {
+        let pal = v1::Timecode {
+            rate_numerator: 25,
+            rate_denominator: 1,
+            ..at(0, 0, 0, 3)
+        };
+        assert!(timecode(&pal).is_none());
+        let counted = |sub_frame| v1::Timecode {
+            drop_frame: false,
+            sub_frame,
+            ..pal
+        };
+        assert!(timecode(&counted(0.5)).is_some());
+        for sub_frame in [f32::NAN, -0.1, 1.0, f32::INFINITY] {
+            assert!(timecode(&counted(sub_frame)).is_none());
         }
     }
 }

@@ -1,7 +1,10 @@
 //! Rows A1 to A11 and A20 to A24: marker frames that are odd, wrong, or wrongly numbered.
 
-use frontalis_proto::v1::{CurveSample, GapCause, MarkerFrame, Quality, SampleFlag, SessionState};
-use harness::{Publisher, Subscriber, assert_refused, every_frame};
+use frontalis_proto::v1::{
+    CurveSample, GapCause, MarkerFrame, Quality, SampleFlag, SessionState, StartTakeRequest,
+    StopTakeRequest, Take,
+};
+use harness::{Publisher, Subscriber, TestServer, assert_refused, every_frame};
 use tonic::Code;
 
 use super::{GOOD_FRAMES, SUBJECT, Stage, beside_a_control_session};
@@ -203,6 +206,66 @@ async fn a20_a_repeated_frame_has_no_second_effect() {
         assert_eq!(frames, [(NEXT, NEXT), (NEXT + 1, NEXT + 1)]);
     })
     .await;
+}
+
+/// More frames than are remembered beside the take.
+const MANY_FRAMES: u64 = 70_000;
+
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn a20_a_whole_take_sent_again_has_no_second_effect() {
+    beside_a_control_session("A20, a whole take", async |stage| {
+        let take = start_take(&stage.server, SUBJECT).await;
+        let mut publisher = stage.publisher().await;
+        // Without markers, so that the test is short.
+        let empty = |number| MarkerFrame {
+            number,
+            ..MarkerFrame::default()
+        };
+        let mut frames = stage.performance.frames(1..=GOOD_FRAMES);
+        frames.extend((NEXT..=MANY_FRAMES).map(empty));
+        let n_good = usize::try_from(GOOD_FRAMES).unwrap();
+        send_all(&mut publisher, &frames[n_good..]).await;
+        publisher.durable(MANY_FRAMES).await.unwrap();
+
+        // The first of them are long forgotten, and then the last are not.
+        send_all(&mut publisher, &frames[..2_000]).await;
+        send_all(&mut publisher, &frames[65_000..]).await;
+        let mut other = stage.performance.frame(7);
+        other.positions[0] += 1.0;
+        let next = empty(MANY_FRAMES + 1);
+        publisher.send(vec![other, frames[8].clone(), next]).await;
+        publisher.durable(MANY_FRAMES + 1).await.unwrap();
+        assert_eq!(publisher.report().rejections(), [(7, "FRAME_CONFLICT")]);
+        let after = stage.server.session(SUBJECT).await.status.unwrap();
+        assert_eq!(after.frames_received, MANY_FRAMES + 1);
+        assert_eq!(after.frames_rejected, 1);
+        let stopped = stop_take(&stage.server, &take.name).await;
+        assert_eq!(stopped.n_frames, MANY_FRAMES + 1);
+    })
+    .await;
+}
+
+async fn send_all(publisher: &mut Publisher, frames: &[MarkerFrame]) {
+    for message in frames.chunks(250) {
+        publisher.send(message.to_vec()).await;
+    }
+}
+
+async fn start_take(server: &TestServer, session: &str) -> Take {
+    let request = StartTakeRequest {
+        session: session.to_owned(),
+        ..StartTakeRequest::default()
+    };
+    let answer = server.takes().await.start_take(request).await.unwrap();
+    answer.into_inner().take.unwrap()
+}
+
+async fn stop_take(server: &TestServer, name: &str) -> Take {
+    let request = StopTakeRequest {
+        name: name.to_owned(),
+    };
+    let answer = server.takes().await.stop_take(request).await.unwrap();
+    answer.into_inner().take.unwrap()
 }
 
 #[tokio::test(flavor = "multi_thread", worker_threads = 2)]

@@ -22,10 +22,12 @@ use crate::{
         audit::Audit,
         peer::Peer,
         sessions::in_process,
+        takes::Takes,
     },
     session::{
         Claim, Grant, Granted, IncomingFrame, Offer, Publication, PublishEnd, SessionRegistry, Wait,
     },
+    take::{FrameLookup, Recorder},
     wire::capture::{self as wire, MAX_FRAMES_PER_MESSAGE},
 };
 
@@ -43,16 +45,26 @@ pub struct CaptureGrpc {
     store: Store,
     clock: ServerClock,
     audit: Audit,
+    takes: Takes,
 }
 
 impl CaptureGrpc {
     /// Publishes into the sessions of `registry`; epochs are made durable in `store` before they are granted.
-    pub fn new(registry: SessionRegistry, store: Store, clock: ServerClock, audit: Audit) -> Self {
+    /// Sessions that are to be recorded from their first frame on become `takes`, which also know what a session no longer
+    /// knows of its frames.
+    pub fn new(
+        registry: SessionRegistry,
+        store: Store,
+        clock: ServerClock,
+        audit: Audit,
+        takes: Takes,
+    ) -> Self {
         Self {
             registry,
             store,
             clock,
             audit,
+            takes,
         }
     }
 
@@ -123,6 +135,7 @@ impl CaptureGrpc {
         } else {
             claimed?;
         }
+        self.takes.start_with_first_frame(&session).await?;
         let epoch = self.store.next_epoch(&start.session).await?;
         let (publisher, takeover) = (start.publisher, start.takeover);
         let publication = session.grant(Grant {
@@ -214,7 +227,7 @@ where
             .service
             .open(request.start.ok_or_else(missing)?, action, &self.peer)
             .await?;
-        let mut flow = Flow::new(publication, self.service.clock);
+        let mut flow = Flow::new(publication, &self.service);
         flow.take_frames(request.frames)?;
         let granted = flow.publication.granted().clone();
         let mut response = flow.response();
@@ -247,6 +260,9 @@ fn started(granted: &Granted, durable_through: u64) -> v1::PublishStarted {
 struct Flow {
     publication: Publication,
     clock: ServerClock,
+    recorder: Recorder,
+    /// Finds frames of the session's take.
+    lookup: Option<FrameLookup>,
     /// Frames of the newest message that were not offered yet.
     waiting: std::vec::IntoIter<v1::MarkerFrame>,
     /// The frame that the session cannot take yet.
@@ -263,10 +279,12 @@ struct Flow {
 }
 
 impl Flow {
-    fn new(publication: Publication, clock: ServerClock) -> Self {
+    fn new(publication: Publication, service: &CaptureGrpc) -> Self {
         Self {
             publication,
-            clock,
+            clock: service.clock,
+            recorder: service.takes.recorder().clone(),
+            lookup: None,
             waiting: Vec::new().into_iter(),
             held: None,
             rejected: Vec::new(),
@@ -290,7 +308,7 @@ impl Flow {
             if let Some(end) = self.end.take() {
                 return end.map(|()| None);
             }
-            match self.offer_frames() {
+            match self.offer_frames().await {
                 Err(end) => return Ok(Some(self.last_response(Err(end.into())))),
                 Ok(()) if self.must_respond() => return Ok(Some(self.response())),
                 Ok(()) if self.is_closing && self.publication.is_finished() => {
@@ -305,24 +323,24 @@ impl Flow {
     }
 
     /// Offers what waits until a response is due, or the session has no room.
-    fn offer_frames(&mut self) -> Result<(), PublishEnd> {
-        let offered = self.offer_until_held();
+    async fn offer_frames(&mut self) -> Result<(), PublishEnd> {
+        let offered = self.offer_until_held().await;
         let late = self.publication.take_rejections().into_iter();
         self.rejected.extend(late.map(wire::rejection_to_wire));
         // A released publication has no lease to check; it ends by its mailbox.
         offered.and_then(|()| self.publication.check())
     }
 
-    fn offer_until_held(&mut self) -> Result<(), PublishEnd> {
+    async fn offer_until_held(&mut self) -> Result<(), PublishEnd> {
         if let Some((frame, _)) = self.held.take() {
-            self.offer(frame)?;
+            self.offer(frame).await?;
         }
         while self.held.is_none() && self.n_unanswered < FRAMES_PER_RESPONSE {
             let Some(sent) = self.waiting.next() else {
                 break;
             };
             match wire::frame(&sent, &self.publication.granted().shape) {
-                Ok(frame) => self.offer(frame)?,
+                Ok(frame) => self.offer(frame).await?,
                 Err(rejection) => {
                     let answer = self.publication.refuse(rejection)?;
                     self.note(answer);
@@ -332,15 +350,34 @@ impl Flow {
         Ok(())
     }
 
-    fn offer(&mut self, frame: IncomingFrame) -> Result<(), PublishEnd> {
-        let answer = self.publication.offer(frame)?;
+    async fn offer(&mut self, frame: IncomingFrame) -> Result<(), PublishEnd> {
+        let mut answer = self.publication.offer(frame)?;
+        if let Offer::Unsure(frame) = &answer {
+            let in_take = self.in_take(frame.number).await;
+            answer = self.publication.settle(frame, in_take)?;
+        }
         self.note(answer);
         Ok(())
+    }
+
+    /// The hash of what the session's take has under this number (CONTRACTS D-6a).
+    async fn in_take(&mut self, number: u64) -> Option<u64> {
+        let session = self.publication.session();
+        self.lookup = self.recorder.frames_of(session, self.lookup.take());
+        match self.lookup.as_mut()?.content_hash(number).await {
+            Ok(found) => found,
+            Err(error) => {
+                let error = &error as &dyn std::error::Error;
+                tracing::error!(%session, number, error, "a frame sent again cannot be compared, it counts as late");
+                None
+            }
+        }
     }
 
     fn note(&mut self, answer: Offer) {
         match answer {
             Offer::Wait(frame, wait) => self.held = Some((frame, wait)),
+            Offer::Unsure(_) => unreachable!("invariant: what is unsure is settled"),
             Offer::Taken => self.n_unanswered += 1,
             Offer::Rejected(rejection) => {
                 self.n_unanswered += 1;
@@ -412,6 +449,10 @@ impl Flow {
         if request.start.is_some() {
             self.publication.release();
             return Err(protocol_order("start was sent twice"));
+        }
+        if let Some(echo) = &request.clock {
+            let exchange = wire::clock_exchange(echo, self.clock.now_nanos());
+            self.publication.exchange(exchange)?;
         }
         self.take_frames(request.frames)
     }

@@ -3,7 +3,9 @@
 //! A stream pulls from its subscription when its connection has room, so that nothing is queued for a subscriber that
 //! does not read (CONTRACTS D-14, D-19). It frees its place when it is dropped, and when its reader is blocked.
 
+mod page;
 mod reader;
+mod replaying;
 
 use std::pin::Pin;
 
@@ -12,7 +14,10 @@ use futures::{Stream, StreamExt as _, stream};
 use tonic::{Request, Response, Status, Streaming};
 
 pub(in crate::service) use self::reader::MAX_PAUSE;
-use self::reader::Reader;
+use self::{
+    reader::Reader,
+    replaying::{Begun, Replaying},
+};
 use super::{
     ending,
     opening::{first_message, protocol_order},
@@ -20,10 +25,11 @@ use super::{
 use crate::{
     catalogue::Store,
     clock::ServerClock,
-    hub::{Closing, Delivered, Subscription},
+    hub::{Closing, Delivered, LostRange, Subscription},
     service::{
         access::{Action, Caller},
         peer::Peer,
+        replay::Replays,
         sessions::in_process,
     },
     session::{SessionError, SessionHandle, SessionRegistry},
@@ -36,15 +42,22 @@ pub struct CurvesGrpc {
     registry: SessionRegistry,
     store: Store,
     clock: ServerClock,
+    replays: Replays,
 }
 
 impl CurvesGrpc {
-    /// Serves the sessions of `registry`; `store` knows of those that ended.
-    pub fn new(registry: SessionRegistry, store: Store, clock: ServerClock) -> Self {
+    /// Serves the sessions of `registry`; `store` knows of those that ended, and `replays` has what they no longer keep.
+    pub fn new(
+        registry: SessionRegistry,
+        store: Store,
+        clock: ServerClock,
+        replays: Replays,
+    ) -> Self {
         Self {
             registry,
             store,
             clock,
+            replays,
         }
     }
 
@@ -99,16 +112,26 @@ impl CurvesGrpc {
         })?;
         peer.caller.may_in(Action::Subscribe, &request.session)?;
         let session = in_process(&self.registry, &self.store, &request.session).await?;
-        let mut subscription = session.hub().subscribe(request.spec)?;
         let actor = session.actor();
-        subscription.limit_entries(wire::samples_in_a_response(
+        let max_samples = wire::samples_in_a_response(
             actor.muscle_set().muscles().len(),
             actor.markers().len(),
             request.detail,
-        ));
-        let header = self.header(&session);
+        );
+        let mut header = self.header(&session);
+        let begun = replaying::begin(&self.replays, &session, request.spec, max_samples);
+        let (mut subscription, replaying) = match begun.await? {
+            Begun::Live(subscription) => (subscription, None),
+            Begun::Replay(subscription, replaying) => (subscription, Some(replaying)),
+        };
+        header.run = replaying.as_ref().map_or(header.run, |it| it.run());
+        subscription.limit_entries(max_samples);
         let flow = Flow {
             reader: Reader::new(subscription),
+            replays: self.replays.clone(),
+            session,
+            replaying,
+            max_samples,
             detail: request.detail,
             may_grant: can_return_credits,
         };
@@ -165,8 +188,19 @@ impl CurveService for CurvesGrpc {
         let asked = wire::read(request.get_ref())?;
         caller.may_in(Action::Subscribe, &asked.session)?;
         let session = in_process(&self.registry, &self.store, &asked.session).await?;
-        let page = session.hub().page(asked.run, asked.after, asked.limit)?;
         let header = self.header(&session);
+        if let Some(response) = page::replayed(&self.replays, &session, &asked, &header).await? {
+            return Ok(Response::new(response));
+        }
+        let page = session.hub().page(asked.run, asked.after, asked.limit);
+        let page = match page {
+            Ok(page) => page,
+            Err(range) => {
+                return Err(replaying::not_kept(&self.replays, &session, range)
+                    .await?
+                    .into());
+            }
+        };
         let response = wire::page_to_wire(&page, header, asked.detail);
         Ok(Response::new(response))
     }
@@ -190,6 +224,11 @@ enum Phase {
 
 struct Flow {
     reader: Reader,
+    replays: Replays,
+    session: SessionHandle,
+    /// While it is served out of takes.
+    replaying: Option<Box<Replaying>>,
+    max_samples: usize,
     detail: SampleDetail,
     /// Whether the client's side is open.
     may_grant: bool,
@@ -241,17 +280,67 @@ impl Flow {
     {
         let blocked = |lost| ending::blocked(&lost);
         let mut subscription = self.reader.ask().map_err(blocked)?;
-        let delivered = loop {
+        let response = self.next_of(&mut subscription, grants).await;
+        self.reader.put_back(subscription);
+        response
+    }
+
+    async fn next_of<S>(
+        &mut self,
+        subscription: &mut Subscription,
+        grants: &mut S,
+    ) -> Result<v1::SubscribeResponse, Status>
+    where
+        S: Stream<Item = Result<v1::SubscribeRequest, Status>> + Unpin,
+    {
+        loop {
+            if let Some(replaying) = &mut self.replaying {
+                // Credits mean nothing here: they are read when it is live again.
+                if let Some(response) = replaying.next(subscription, self.detail).await? {
+                    return Ok(response);
+                }
+                self.replaying = None;
+            }
+            let delivered = self.delivered(subscription, grants).await?;
+            if let Delivered::Lagged(lost) = &delivered {
+                self.fall_back(lost, subscription).await?;
+            } else {
+                return self.respond(delivered, subscription);
+            }
+        }
+    }
+
+    async fn delivered<S>(
+        &mut self,
+        subscription: &mut Subscription,
+        grants: &mut S,
+    ) -> Result<Delivered, Status>
+    where
+        S: Stream<Item = Result<v1::SubscribeRequest, Status>> + Unpin,
+    {
+        loop {
             tokio::select! {
                 // Returned credits first: they decide what may be sent.
                 biased;
-                grant = grants.next(), if self.may_grant => self.receive(grant, &mut subscription)?,
-                delivered = subscription.next() => break delivered,
+                grant = grants.next(), if self.may_grant => self.receive(grant, subscription)?,
+                delivered = subscription.next() => return Ok(delivered),
             }
-        };
-        let response = self.respond(delivered, &subscription);
-        self.reader.put_back(subscription);
-        response
+        }
+    }
+
+    /// Reads on in a take what the session no longer keeps.
+    async fn fall_back(
+        &mut self,
+        lost: &LostRange,
+        subscription: &Subscription,
+    ) -> Result<(), Status> {
+        let (replays, session) = (&self.replays, &self.session);
+        let found = Replaying::after_lag(replays, session, subscription, self.max_samples);
+        match found.await? {
+            Some(replaying) => self.replaying = Some(replaying),
+            None => return Err(ending::lagged(lost)),
+        }
+        Ok(())
     }
 
     fn receive(

@@ -1,6 +1,7 @@
 //! A capture stage for tests: one session of the reference face in memory, publishers and renderers without sockets.
 
 use std::{
+    path::PathBuf,
     sync::Arc,
     time::{Duration, SystemTime},
 };
@@ -23,10 +24,10 @@ use super::{capture::CaptureGrpc, curves::CurvesGrpc, status::reason_of};
 use crate::{
     catalogue::{Catalogue, Layout, NewRevision, NewSession, Store, StoredSettings},
     clock::ServerClock,
-    executor::Workers,
-    fs::MemFs,
+    executor::{Threads, Workers},
+    fs::{Fs, MemFs},
     name::{ActorId, SessionId},
-    service::{access::Caller, audit::Audit, peer::Peer, sessions::Sessions},
+    service::{access::Caller, audit::Audit, peer::Peer, sessions::Sessions, takes::Takes},
     session::{
         RestoredAlignment, SessionEvent, SessionHandle, SessionLimits, SessionRegistry,
         SessionSettings, SessionSpec,
@@ -43,6 +44,7 @@ pub(in crate::service) struct Stage {
     pub(super) capture: CaptureGrpc,
     pub(in crate::service) curves: CurvesGrpc,
     pub(super) sessions: Sessions,
+    pub(super) takes: Takes,
     pub(super) store: Store,
     pub(super) events: mpsc::Receiver<SessionEvent>,
     pub(super) actor: Arc<Actor>,
@@ -88,9 +90,19 @@ impl Stage {
                 restored,
             })
             .unwrap();
+        let fs: Arc<dyn Fs> = Arc::new(MemFs::default());
+        let (dir, kept) = (PathBuf::from("/takes"), registry.clone());
+        let takes = Takes::new(Threads::Inline, store.clone(), kept, clock, fs, dir).unwrap();
         Self {
-            capture: CaptureGrpc::new(registry.clone(), store.clone(), clock, Audit::none()),
-            curves: CurvesGrpc::new(registry.clone(), store.clone(), clock),
+            capture: CaptureGrpc::new(
+                registry.clone(),
+                store.clone(),
+                clock,
+                Audit::none(),
+                takes.clone(),
+            ),
+            curves: CurvesGrpc::new(registry.clone(), store.clone(), clock, takes.replays()),
+            takes,
             sessions: Sessions::new(store.clone(), registry.clone(), clock, 4),
             store,
             registry,
@@ -234,6 +246,8 @@ async fn store(actor: &Actor) -> Store {
             marker: settings().marker,
             stale_after: None,
             publisher_timeout: Duration::from_secs(10),
+            record: false,
+            record_images: false,
         },
     };
     store.create_session(session, 0).await.unwrap();

@@ -6,7 +6,6 @@ use frontalis_proto::v1::{self, take_service_server::TakeService};
 use futures::Stream;
 use tonic::{Request, Response, Status};
 
-use super::actors::not_built;
 use crate::{
     catalogue::{CatalogueError, TakeFilter, TakeRow},
     name::{ActorId, SessionId, TakeId},
@@ -15,7 +14,7 @@ use crate::{
         audit::Audit,
         peer::Peer,
         take_exports::{OpenTakeFile, TakeExports},
-        takes::Takes,
+        takes::{ResolveOrder, Takes},
     },
     wire::{
         invalid::{FieldError, FieldProblem},
@@ -90,7 +89,10 @@ impl TakeService for TakesGrpc {
         let session =
             SessionId::from_resource(&request.session).map_err(FieldError::name("session"))?;
         caller.may_in(Action::Record, &session)?;
-        let row = self.takes.start(&session, wire::labels(&request)?).await?;
+        let row = self
+            .takes
+            .start(&session, wire::new_take(&request)?)
+            .await?;
         Ok(Response::new(v1::StartTakeResponse {
             take: Some(wire::take(&row)),
         }))
@@ -165,7 +167,8 @@ impl TakeService for TakesGrpc {
         let name = &request.get_ref().name;
         let row = self.allowed(&peer.caller, Action::DeleteTake, name).await?;
         let deleted = self.takes.delete(&row.id).await;
-        self.audit.outcome("take_delete", &peer, name, deleted)?;
+        self.audit
+            .outcome("take_delete", &peer, &row.id.resource(), deleted)?;
         Ok(Response::new(v1::DeleteTakeResponse {}))
     }
 
@@ -180,7 +183,9 @@ impl TakeService for TakesGrpc {
         let row = self.allowed(&peer.caller, Action::ReadTakes, name).await?;
         let format = format(request.get_ref().format)?;
         let exported = self.exports.export(&peer, &row, format).await;
-        let exported = self.audit.outcome("take_export", &peer, name, exported)?;
+        let exported = self
+            .audit
+            .outcome("take_export", &peer, &row.id.resource(), exported)?;
         Ok(Response::new(peer.caller.while_valid(exported)))
     }
 
@@ -192,8 +197,14 @@ impl TakeService for TakesGrpc {
     ) -> Result<Response<Self::ResolveTakeStream>, Status> {
         let caller = Caller::of(request.extensions());
         let name = &request.get_ref().name;
-        self.allowed(&caller, Action::MakeActors, name).await?;
-        Err(not_built("ResolveTake"))
+        let row = self.allowed(&caller, Action::MakeActors, name).await?;
+        let request = request.into_inner();
+        let order = ResolveOrder {
+            from: row,
+            actor_revision: (request.actor_revision != 0).then_some(request.actor_revision),
+            settings: request.settings.unwrap_or_default(),
+        };
+        Ok(Response::new(Box::pin(self.takes.resolve(order)?)))
     }
 }
 

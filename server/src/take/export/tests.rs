@@ -16,7 +16,7 @@ use super::*;
 use crate::{
     fs::MemFs,
     take::{
-        Channel, channel,
+        Channel,
         chunk::{ChunkBuffer, Message},
         rewrite::rewrite,
     },
@@ -115,7 +115,8 @@ fn timecode(number: u64) -> Timecode {
 
 fn store(fs: &MemFs, messages: &[(Channel, Vec<u8>)]) {
     let mut file = fs.create(&PathBuf::from(DIR).join(NAME)).unwrap();
-    file.append(&channel::head().unwrap()).unwrap();
+    file.append(crate::take::head::growing_head().unwrap())
+        .unwrap();
     for (sequence, (channel, data)) in (0..).zip(messages) {
         let mut chunk = ChunkBuffer::default();
         chunk.add(&Message {

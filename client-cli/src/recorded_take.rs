@@ -1,0 +1,263 @@
+//! What a take recorded, message after message, as the bytes of its MCAP file come in.
+//!
+//! The file may still grow, or have been cut off: what is whole of it is read. Nothing is kept but the message in hand and
+//! the chunk it stands in.
+
+use std::{
+    collections::HashMap,
+    fs::File,
+    io::{self, Read as _},
+    path::Path,
+};
+
+use frontalis_proto::v1::{MarkerFrame, TakeEvent, take_event::Event};
+use futures::{Stream, StreamExt as _, stream, stream::BoxStream};
+use mcap::{
+    McapError,
+    records::Record,
+    sans_io::linear_reader::{LinearReadEvent, LinearReader, LinearReaderOptions},
+};
+use prost::Message as _;
+
+use crate::{error::ClientError, proto};
+
+/// Longest record that is read, chunks included.
+const MAX_RECORD_BYTES: usize = 64 << 20;
+
+/// Bytes that are read of a file at once.
+const PIECE_BYTES: usize = 64 << 10;
+
+/// Channels that a file may have; a take has three.
+const MAX_CHANNELS: usize = 64;
+
+/// Why a take cannot be read on.
+#[derive(Debug, thiserror::Error)]
+pub enum RecordedTakeError {
+    /// The file cannot be read.
+    #[error("the file cannot be read")]
+    Io(#[from] io::Error),
+    /// The server does not give it.
+    #[error("the server does not give the take")]
+    Server(#[from] ClientError),
+    /// It is no MCAP, or damaged.
+    #[error("the take is no readable MCAP file")]
+    Format(#[from] McapError),
+    /// It is no take.
+    #[error("a message of {topic} is none of a take")]
+    Message {
+        /// Where it stands.
+        topic: String,
+    },
+}
+
+/// One thing that was recorded; samples are passed over.
+#[derive(Clone, Debug, PartialEq)]
+pub enum RecordedMessage {
+    /// A frame as it came.
+    Frame(MarkerFrame),
+    /// What happened between frames.
+    Event(Box<Event>),
+}
+
+/// A take's messages, in the order in which they were recorded.
+pub struct RecordedTake {
+    pieces: BoxStream<'static, Result<Vec<u8>, RecordedTakeError>>,
+    piece: Vec<u8>,
+    n_used: usize,
+    reader: LinearReader,
+    topics: HashMap<u16, String>,
+}
+
+impl RecordedTake {
+    /// A take out of a file.
+    ///
+    /// # Errors
+    ///
+    /// When the file cannot be opened.
+    pub fn open(file: &Path) -> Result<Self, RecordedTakeError> {
+        let file = File::open(file)?;
+        Ok(Self::new(stream::try_unfold(file, async |mut file| {
+            let mut piece = vec![0; PIECE_BYTES];
+            let n_bytes = file.read(&mut piece)?;
+            piece.truncate(n_bytes);
+            Ok((n_bytes > 0).then_some((piece, file)))
+        })))
+    }
+
+    /// A take out of a server's answer.
+    pub fn download(pieces: tonic::Streaming<proto::ExportTakeResponse>) -> Self {
+        Self::new(pieces.map(|piece| match piece {
+            Ok(piece) => Ok(piece.chunk),
+            Err(status) => Err(ClientError::from(status).into()),
+        }))
+    }
+
+    fn new(
+        pieces: impl Stream<Item = Result<Vec<u8>, RecordedTakeError>> + Send + 'static,
+    ) -> Self {
+        let options = LinearReaderOptions::default()
+            .with_skip_end_magic(true)
+            .with_validate_chunk_crcs(true)
+            .with_record_length_limit(MAX_RECORD_BYTES);
+        Self {
+            pieces: pieces.boxed(),
+            piece: Vec::new(),
+            n_used: 0,
+            reader: LinearReader::new_with_options(options),
+            topics: HashMap::new(),
+        }
+    }
+
+    /// The next message; `None` at the end, or where the rest of the file is missing.
+    ///
+    /// # Errors
+    ///
+    /// When the take cannot be read on.
+    pub async fn next(&mut self) -> Result<Option<RecordedMessage>, RecordedTakeError> {
+        loop {
+            let n_wanted = match self.reader.next_event() {
+                None | Some(Err(McapError::UnexpectedEof | McapError::UnexpectedEoc)) => {
+                    return Ok(None);
+                }
+                Some(Err(error)) => return Err(error.into()),
+                Some(Ok(LinearReadEvent::ReadRequest(n_bytes))) => n_bytes,
+                Some(Ok(LinearReadEvent::Record { data, opcode })) => {
+                    let record = mcap::parse_record(opcode, data)?;
+                    if let Some(message) = take_record(record, &mut self.topics)? {
+                        return Ok(Some(message));
+                    }
+                    continue;
+                }
+            };
+            self.feed(n_wanted).await?;
+        }
+    }
+
+    /// Gives the reader bytes that it wants, as many as are there; none at the end.
+    async fn feed(&mut self, n_wanted: usize) -> Result<(), RecordedTakeError> {
+        while self.n_used == self.piece.len() {
+            let Some(piece) = self.pieces.next().await else {
+                self.reader.notify_read(0);
+                return Ok(());
+            };
+            (self.piece, self.n_used) = (piece?, 0);
+        }
+        let rest = &self.piece[self.n_used..];
+        let n_bytes = rest.len().min(n_wanted);
+        self.reader
+            .insert(n_bytes)
+            .copy_from_slice(&rest[..n_bytes]);
+        self.reader.notify_read(n_bytes);
+        self.n_used += n_bytes;
+        Ok(())
+    }
+}
+
+fn take_record(
+    record: Record<'_>,
+    topics: &mut HashMap<u16, String>,
+) -> Result<Option<RecordedMessage>, RecordedTakeError> {
+    match record {
+        Record::Channel(channel) if topics.len() < MAX_CHANNELS => {
+            topics.insert(channel.id, channel.topic);
+            Ok(None)
+        }
+        Record::Message { header, data } => match topics.get(&header.channel_id) {
+            Some(topic) => message(topic, &data),
+            None => Ok(None),
+        },
+        _ => Ok(None),
+    }
+}
+
+fn message(topic: &str, data: &[u8]) -> Result<Option<RecordedMessage>, RecordedTakeError> {
+    let is_none = |_| RecordedTakeError::Message {
+        topic: topic.to_owned(),
+    };
+    match topic {
+        "/markers" => {
+            let frame = MarkerFrame::decode(data).map_err(is_none)?;
+            Ok(Some(RecordedMessage::Frame(frame)))
+        }
+        "/events" => {
+            let event = TakeEvent::decode(data).map_err(is_none)?.event;
+            Ok(event.map(|it| RecordedMessage::Event(Box::new(it))))
+        }
+        _ => Ok(None),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use mcap::{Writer, records::MessageHeader};
+
+    use super::*;
+
+    fn frame(number: u64) -> MarkerFrame {
+        MarkerFrame {
+            number,
+            positions: vec![1.0, f32::MIN_POSITIVE, -0.0],
+            ..MarkerFrame::default()
+        }
+    }
+
+    /// A file of 100 frames and a header before them.
+    fn file() -> Vec<u8> {
+        let mut writer = Writer::new(io::Cursor::new(Vec::new())).unwrap();
+        let schema = writer.add_schema("any", "protobuf", &[]).unwrap();
+        let topics = ["/events", "/markers"];
+        let [events, markers] = topics.map(|topic| {
+            let channel = writer.add_channel(schema, topic, "protobuf", &[].into());
+            channel.unwrap()
+        });
+        let mut write = |channel_id, data: Vec<u8>| {
+            let header = MessageHeader {
+                channel_id,
+                sequence: 0,
+                log_time: 0,
+                publish_time: 0,
+            };
+            writer.write_to_known_channel(&header, &data).unwrap();
+        };
+        let event = Some(Event::Header(proto::TakeHeader::default()));
+        write(events, TakeEvent { event }.encode_to_vec());
+        for number in 1..=100 {
+            write(markers, frame(number).encode_to_vec());
+        }
+        writer.finish().unwrap();
+        writer.into_inner().into_inner()
+    }
+
+    async fn read(bytes: &[u8], piece_bytes: usize) -> Vec<RecordedMessage> {
+        let pieces: Vec<_> = bytes
+            .chunks(piece_bytes)
+            .map(|it| Ok(it.to_vec()))
+            .collect();
+        let mut take = RecordedTake::new(stream::iter(pieces));
+        let mut messages = Vec::new();
+        while let Some(message) = take.next().await.unwrap() {
+            messages.push(message);
+        }
+        messages
+    }
+
+    #[tokio::test]
+    async fn messages_come_as_they_were_recorded_however_the_bytes_come() {
+        let bytes = file();
+        for piece_bytes in [7, 1 << 20] {
+            let messages = read(&bytes, piece_bytes).await;
+            assert!(matches!(&messages[0], RecordedMessage::Event(_)));
+            let expected: Vec<_> = (1..=100)
+                .map(|it| RecordedMessage::Frame(frame(it)))
+                .collect();
+            assert_eq!(messages[1..], expected);
+        }
+    }
+
+    #[tokio::test]
+    async fn what_is_no_mcap_is_said_to_be_none() {
+        let pieces = stream::iter([Ok(b"not an MCAP file at all".to_vec())]);
+        let error = RecordedTake::new(pieces).next().await.unwrap_err();
+        assert!(matches!(error, RecordedTakeError::Format(_)), "{error:?}");
+    }
+}

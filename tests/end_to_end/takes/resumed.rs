@@ -1,0 +1,168 @@
+//! Over a crash of the server, publisher and subscriber go on by themselves (CONTRACTS D-8, D-9, D-17, O-14).
+
+use std::collections::BTreeSet;
+
+use frontalis_client::{
+    capture_client::{CaptureClient, CaptureSettings},
+    connection::lazy_channel,
+    curve_client::{CurveClient, CurveEvent, CurveSettings, StartAt, Wanted},
+};
+use frontalis_proto::v1::{Ingest, LengthUnit};
+use harness::{
+    Heard, RecordedTake, Subscriber, TestPerformance, TestServer, assert_eventually,
+    assert_refused, every_frame,
+};
+use tonic::Code;
+
+use super::{SESSION, export, get, start};
+
+/// Frames before the crash, and as many after it.
+const N_FRAMES: u64 = 150;
+
+async fn server() -> TestServer {
+    let server = TestServer::start_program(|_| {}).await;
+    server.import_reference().await;
+    let created = server.create_session("stage", "actors/reference");
+    created.await.unwrap();
+    server
+}
+
+fn settings(performance: &TestPerformance) -> CaptureSettings {
+    CaptureSettings {
+        session: SESSION.to_owned(),
+        publisher: "camera-1".to_owned(),
+        marker_names: performance.marker_names().to_vec(),
+        unit: LengthUnit::Millimeter,
+        rate_hz: performance.rate_hz,
+        ingest: Ingest::Lossless,
+        takeover: false,
+    }
+}
+
+/// What a subscriber of every frame was told: sequences and frames by run.
+#[derive(Default)]
+struct Told {
+    runs: Vec<Vec<(u64, u64)>>,
+    gap_frames: BTreeSet<u64>,
+    last_frame: u64,
+}
+
+impl Told {
+    fn take(&mut self, event: CurveEvent) {
+        match event {
+            CurveEvent::Header(_) if self.runs.is_empty() => self.runs.push(Vec::new()),
+            CurveEvent::NewRun { .. } => self.runs.push(Vec::new()),
+            CurveEvent::Sample(sample) => {
+                self.last_frame = sample.frame;
+                let run = self.runs.last_mut().unwrap();
+                run.push((sample.sequence, sample.frame));
+            }
+            CurveEvent::Gap(gap) => self.gap_frames.extend(gap.first..=gap.last),
+            CurveEvent::Lost { .. } => panic!("{event:?}"),
+            _ => {}
+        }
+    }
+}
+
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn publisher_and_subscriber_go_on_over_a_crash_without_a_hole_or_a_double() {
+    let server = server().await;
+    let performance = TestPerformance::reference();
+    let take = start(&server, SESSION, "").await.unwrap();
+    let channel = lazy_channel(&server.url()).unwrap();
+    let publisher = CaptureClient::start(channel.clone(), settings(&performance))
+        .await
+        .unwrap();
+    let from = StartAt::Oldest;
+    let wanted = CurveSettings::new(SESSION, Wanted::EveryFrame { from });
+    let mut curves = CurveClient::subscribe(channel, wanted).await.unwrap();
+    let mut told = Told::default();
+    for number in 1..=N_FRAMES {
+        publisher.send(performance.frame(number)).await.unwrap();
+    }
+    // Somewhere amid the frames; the subscriber has heard few of them.
+    assert_eventually!(publisher.report().durable_through > N_FRAMES / 2);
+    while told.last_frame < N_FRAMES / 4 {
+        told.take(curves.next().await.unwrap().unwrap());
+    }
+    let server = server.kill_and_restart().await;
+    for number in N_FRAMES + 1..=2 * N_FRAMES {
+        publisher.send(performance.frame(number)).await.unwrap();
+    }
+    while told.last_frame < 2 * N_FRAMES {
+        told.take(curves.next().await.unwrap().unwrap());
+    }
+    let published = publisher.finish().await;
+    assert!(published.failure.is_none(), "{:?}", published.failure);
+    assert_eq!(published.report.lost.n_frames(), 0);
+    assert_eq!(published.report.unacknowledged_frames, 0);
+    assert!(published.report.reconnections >= 1);
+
+    assert_eq!(told.runs.len(), 2, "the run that crashed, and the next");
+    for run in &told.runs {
+        let sequences: Vec<u64> = run.iter().map(|it| it.0).collect();
+        assert_eq!(sequences, (1..=run.len() as u64).collect::<Vec<_>>());
+        assert!(run.is_sorted_by(|one, other| one.1 < other.1));
+    }
+    let frames = told.runs.iter().flatten().map(|it| it.1);
+    let mut answered: BTreeSet<u64> = frames.collect();
+    answered.extend(told.gap_frames);
+    assert_eq!(answered, (1..=2 * N_FRAMES).collect::<BTreeSet<_>>());
+
+    let recorded = RecordedTake::read(&export(&server, &take.name).await);
+    let numbers = recorded.frame_numbers();
+    assert_eq!(numbers, (1..=numbers.len() as u64).collect::<Vec<_>>());
+    assert!(numbers.len() as u64 > N_FRAMES / 2);
+    println!(
+        "{} frames were recorded before the crash; {} + {} samples, {} frames sent again",
+        numbers.len(),
+        told.runs[0].len(),
+        told.runs[1].len(),
+        published.report.resent_frames,
+    );
+}
+
+/// The wire's own form: the rest of the run that crashed, then where the next begins.
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn a_position_in_the_run_that_crashed_is_replayed_to_its_end() {
+    let server = server().await;
+    let performance = TestPerformance::reference();
+    let take = start(&server, SESSION, "").await.unwrap();
+    let mut publisher = harness::Publisher::open(&server, performance.start(SESSION, "camera-1"))
+        .await
+        .unwrap();
+    publisher.send(performance.frames(1..=100)).await;
+    publisher.durable(100).await.unwrap();
+    let run = publisher.started.run;
+    let server = server.kill_and_restart().await;
+    assert!(get(&server, &take.name).await.unwrap().recovered);
+
+    let recorded = RecordedTake::read(&export(&server, &take.name).await);
+    let stored = recorded.samples;
+    let position = frontalis_proto::v1::SubscribeStart {
+        run,
+        from_sequence: 5,
+        from_oldest: false,
+        with_uncertainty: true,
+        ..every_frame(SESSION)
+    };
+    let mut subscriber = Subscriber::open(&server, position).await.unwrap();
+    assert_eq!(subscriber.header.run, run);
+    let (mut samples, mut unsolved) = (Vec::new(), 0);
+    let end = loop {
+        match subscriber.next().await {
+            Ok(Some(Heard::Sample(sample))) => samples.push(*sample),
+            Ok(Some(Heard::Gap(gap))) => unsolved += gap.last - gap.first + 1,
+            Ok(Some(_)) => {}
+            Ok(None) => panic!("it ended in peace"),
+            Err(status) => break status,
+        }
+    };
+    assert_refused(&end, Code::OutOfRange, "NEW_RUN");
+    assert_eq!(samples, stored[4..]);
+    assert_eq!(
+        samples.len() as u64 + 4 + unsolved,
+        100,
+        "every frame is told of"
+    );
+}
