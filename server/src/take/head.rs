@@ -177,6 +177,10 @@ fn form(file: &mut dyn ReadFile, offset: u64, body: &[u8], size: u64) -> Result<
     if found > FORMAT {
         return Err(ScanError::NewerFormat { found });
     }
+    // The reader of such records overlooks some lengths that are wrong; there is one way to write this one.
+    if record(&said.metadata)[PREFIX_BYTES..] != *body {
+        return Err(ScanError::Head);
+    }
     let is_final = said.metadata.get(FINAL.0).is_some_and(|it| it == FINAL.1);
     if is_final {
         return Ok(Form::Final);

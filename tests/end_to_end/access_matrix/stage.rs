@@ -56,6 +56,7 @@ impl Stage {
         let mut server = TestServer::start_guarded(|config| {
             config.limits.auth_failures_per_minute = 60_000;
             config.limits.session_creations_per_minute = 60_000;
+            config.limits.sessions = 4_096;
             (config.tls.cert, config.tls.key) = authority.server_files(&["127.0.0.1"]);
             config.tls.client_ca = authority.ca_file();
         })

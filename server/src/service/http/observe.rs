@@ -90,7 +90,11 @@ pub(super) struct ReadyQuery {
     /// The service that shall be ready, as the gRPC health check names it: empty or `frontalis.v1.CaptureService` for new
     /// sessions, `frontalis.v1.TakeService` for new takes too.
     #[serde(default)]
-    #[param(required = false, example = "")]
+    #[param(
+        required = false,
+        pattern = "^(frontalis[.]v1[.](CaptureService|TakeService))?$",
+        example = ""
+    )]
     service: String,
 }
 

@@ -9,6 +9,9 @@ use crate::{
     wire::take::{MAX_LABEL, MAX_NOTES},
 };
 
+/// What a take may begin with: up to ten seconds.
+const PRE_ROLL: &str = r"^([0-9](\.[0-9]{1,9})?|10)s$";
+
 /// `actors/ID`.
 const ACTOR: &str = "^actors/[a-z0-9][a-z0-9_-]{0,62}$";
 /// An id, or none.
@@ -108,6 +111,7 @@ pub(super) fn of(message: &str, field: &str) -> Option<Value> {
             json!({ "minimum": 0, "maximum": LARGEST_BOUND, "pattern": BOUND })
         }
         ("SessionSettings", "stale_after" | "publisher_timeout") => json!({ "pattern": DURATION }),
+        ("StartTakeRequest", "pre_roll") => json!({ "pattern": PRE_ROLL }),
         ("StartTakeRequest", "session") => json!({ "pattern": SESSION }),
         ("StartTakeRequest" | "Take", "slate" | "gesture") => {
             json!({ "maxLength": MAX_LABEL, "pattern": TAKE_TEXT })
