@@ -1,7 +1,9 @@
 //! Takes over HTTP: the same service, and files in parts.
 
 use frontalis_proto::v1::{TakeFormat, take_event::Event};
-use harness::{HttpAnswer, RecordedTake, TestPerformance, TestServer, http_get, http_send};
+use harness::{
+    HttpAnswer, RecordedTake, TestPerformance, TestServer, assert_eventually, http_get, http_send,
+};
 use hyper::Method;
 use serde_json::{Value, json};
 
@@ -35,8 +37,12 @@ async fn a_take_lives_over_http_as_it_does_over_grpc() {
         (200, &"none".parse().unwrap())
     );
     assert!(under_way.headers.get("etag").is_none());
-    let events = RecordedTake::read(&under_way.body).events;
-    assert!(matches!(&events[0], Event::Header(it) if it.take == name));
+    // The first commit comes a little after the start.
+    let file = format!("{path}/file");
+    assert_eventually!(matches!(
+        RecordedTake::read(&http_get(&server, &file).await.body).events.first(),
+        Some(Event::Header(it)) if it.take == name
+    ));
 
     let change =
         json!({ "take": { "circled": true, "notes": "the one" }, "updateMask": "circled,notes" });
