@@ -139,7 +139,7 @@ pub fn field(text: &str) -> Cow<'_, str> {
     }
 }
 
-/// A text that no spreadsheet takes for a formula: an apostrophe before what looks like one (BAD_INPUT I13).
+/// A text that no spreadsheet takes for a formula: an apostrophe before what looks like one (`BAD_INPUT` I13).
 pub fn inert(text: &str) -> Cow<'_, str> {
     if text.starts_with(['=', '+', '-', '@', '\t', '\r', '\n']) {
         Cow::Owned(format!("'{text}"))

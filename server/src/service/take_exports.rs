@@ -158,7 +158,7 @@ impl Running {
                 Step::Over => return Ok(None),
                 Step::Piece(piece) => {
                     self.export = Some(export);
-                    return Ok(Some(piece));
+                    return Ok(Some(*piece));
                 }
                 Step::Working => self.export = Some(export),
             }

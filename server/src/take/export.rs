@@ -81,7 +81,7 @@ pub enum Step {
     /// There is more to do before something can be said.
     Working,
     /// To be sent.
-    Piece(v1::ExportTakeResponse),
+    Piece(Box<v1::ExportTakeResponse>),
     /// All was said.
     Over,
 }
@@ -165,8 +165,7 @@ impl Export {
         let (entries, survey) = &mut *surveying;
         for _ in 0..MESSAGES_A_STEP {
             let added = entries.next().and_then(|next| match next {
-                Some(Some(entry)) => survey.add(&entry).map(|()| true),
-                Some(None) => Ok(true),
+                Some(entry) => survey.add(&entry).map(|()| true),
                 None => Ok(false),
             });
             let goes_on = match added {
@@ -194,10 +193,10 @@ impl Export {
             let entries = Entries::open(&self.source)?;
             Stage::Rows(entries, self.rows(survey)?)
         };
-        Ok(Step::Piece(v1::ExportTakeResponse {
+        Ok(Step::Piece(Box::new(v1::ExportTakeResponse {
             export: Some(self.told.clone()),
             ..v1::ExportTakeResponse::default()
-        }))
+        })))
     }
 
     fn rows(&mut self, survey: &Survey) -> Result<Box<dyn Rows>, ExportError> {
@@ -228,16 +227,14 @@ impl Export {
             }
             // A take that has grown since it was surveyed is exported as it was then.
             let is_whole = rows.n_written() == self.told.n_frames;
-            match if is_whole { None } else { entries.next()? } {
-                Some(Some(entry)) => rows.add(entry)?,
-                Some(None) => {}
-                None => {
-                    self.outlet.frames_done = rows.n_written();
-                    rows.finish()?;
-                    self.stage = Stage::Written;
-                    return Ok(());
-                }
-            }
+            let next = if is_whole { None } else { entries.next()? };
+            let Some(entry) = next else {
+                self.outlet.frames_done = rows.n_written();
+                rows.finish()?;
+                self.stage = Stage::Written;
+                return Ok(());
+            };
+            rows.add(entry)?;
         }
         self.outlet.frames_done = rows.n_written();
         self.stage = Stage::Rows(entries, rows);
@@ -261,22 +258,22 @@ impl Export {
         if chunk.is_empty() {
             return Step::Working;
         }
-        Step::Piece(v1::ExportTakeResponse {
+        Step::Piece(Box::new(v1::ExportTakeResponse {
             chunk,
             frames_done: self.outlet.frames_done,
             export: None,
-        })
+        }))
     }
 
     /// The last words: figures and checksum.
     fn end(&mut self) -> Step {
         self.stage = Stage::Over;
         (self.told.n_bytes, self.told.sha256) = self.outlet.sum();
-        Step::Piece(v1::ExportTakeResponse {
+        Step::Piece(Box::new(v1::ExportTakeResponse {
             chunk: Vec::new(),
             frames_done: self.outlet.frames_done,
             export: Some(self.told.clone()),
-        })
+        }))
     }
 }
 

@@ -31,6 +31,10 @@ impl ShapeMapping {
     }
 
     /// The mapping of muscles in the order of their names.
+    #[expect(
+        clippy::missing_panics_doc,
+        reason = "a test reads every name of the table"
+    )]
     pub fn of_names<'a>(names: impl Iterator<Item = &'a str>) -> Self {
         let mut drivers = vec![Vec::new(); N_SHAPES];
         for (muscle, name) in names.enumerate() {

@@ -41,6 +41,7 @@ pub struct ExportArgs {
 }
 
 /// What a take becomes.
+#[expect(clippy::doc_markdown, reason = "help for people, who see no Markdown")]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 enum Format {
     /// Everything, as it is stored; Foxglove and PlotJuggler open it
@@ -191,7 +192,7 @@ impl<'f> Sum<'f> {
 }
 
 fn summary(whole: &proto::TakeExport, file: &Path) -> String {
-    let mut text = format!(
+    let mut lines = vec![format!(
         "{}: frames {} to {}, {} rows, {} bytes, SHA-256 {}",
         file.display(),
         whole.first_frame,
@@ -199,19 +200,22 @@ fn summary(whole: &proto::TakeExport, file: &Path) -> String {
         whole.n_frames,
         whole.n_bytes,
         whole.sha256
-    );
+    )];
     if whole.n_gaps > 0 {
         let (gaps, frames) = (whole.n_gaps, whole.n_missing_frames);
-        text += &format!("\n{gaps} gaps: {frames} frame numbers have no row");
+        lines.push(format!("{gaps} gaps: {frames} frame numbers have no row"));
     }
     if whole.n_dropped_frames > 0 {
-        let frames = whole.n_dropped_frames;
-        text +=
-            &format!("\n{frames} recorded frames have no row: they were not solved, or came late");
+        lines.push(format!(
+            "{} recorded frames have no row: they were not solved, or came late",
+            whole.n_dropped_frames
+        ));
     }
     if !whole.undriven_shapes.is_empty() {
         let shapes = whole.undriven_shapes.join(", ");
-        text += &format!("\nno muscle drives these shapes, they are 0: {shapes}");
+        lines.push(format!(
+            "no muscle drives these shapes, they are 0: {shapes}"
+        ));
     }
-    text
+    lines.join("\n")
 }

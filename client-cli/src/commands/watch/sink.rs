@@ -117,7 +117,7 @@ fn take_csv(
             }
         }
         (CurveEvent::Sample(sample), Some(writer)) => {
-            writer.write_row(&CsvRow::from(sample).as_row())?
+            writer.write_row(&CsvRow::from(sample).as_row())?;
         }
         _ => {}
     }

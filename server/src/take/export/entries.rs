@@ -14,6 +14,8 @@ pub(super) enum Entry {
     Frame(v1::MarkerFrame),
     Sample(v1::CurveSample),
     Event(Event),
+    /// An event of a later version, which says nothing here.
+    Unknown,
 }
 
 pub(super) struct Entries {
@@ -29,8 +31,8 @@ impl Entries {
         })
     }
 
-    /// The next one; `None` at the end, `Some(None)` for an event of a later version.
-    pub(super) fn next(&mut self) -> Result<Option<Option<Entry>>, ExportError> {
+    /// The next one; `None` at the end.
+    pub(super) fn next(&mut self) -> Result<Option<Entry>, ExportError> {
         if self.batch.is_empty() {
             self.batch = self.reader.next_batch()?.unwrap_or_default().into();
         }
@@ -41,12 +43,14 @@ impl Entries {
     }
 }
 
-fn entry(record: &TakeRecord) -> Result<Option<Entry>, ExportError> {
+fn entry(record: &TakeRecord) -> Result<Entry, ExportError> {
     let data = &*record.data;
     let read = match record.channel {
-        Channel::Markers => v1::MarkerFrame::decode(data).map(|it| Some(Entry::Frame(it))),
-        Channel::Curves => v1::CurveSample::decode(data).map(|it| Some(Entry::Sample(it))),
-        Channel::Events => v1::TakeEvent::decode(data).map(|it| it.event.map(Entry::Event)),
+        Channel::Markers => v1::MarkerFrame::decode(data).map(Entry::Frame),
+        Channel::Curves => v1::CurveSample::decode(data).map(Entry::Sample),
+        Channel::Events => {
+            v1::TakeEvent::decode(data).map(|it| it.event.map_or(Entry::Unknown, Entry::Event))
+        }
     };
     read.map_err(|source| ExportError::Message {
         channel: record.channel.topic(),

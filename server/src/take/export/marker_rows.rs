@@ -49,7 +49,7 @@ impl MarkerRows {
                 self.places = Some(self.columns.places(&source, self.header.as_ref()));
                 return Ok(None);
             }
-            Entry::Event(_) | Entry::Sample(_) => return Ok(None),
+            Entry::Event(_) | Entry::Sample(_) | Entry::Unknown => return Ok(None),
         };
         if !self.turns.take(frame.number, frame.capture_time_nanos) {
             return Ok(None);

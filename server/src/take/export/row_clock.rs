@@ -93,6 +93,7 @@ mod tests {
         let start = Timecode::parse_at("00:00:59;29", "30000/1001").unwrap();
         let mut clock = RowClock::new(Some(start), 0, Some(60.0));
         let at = |clock: &mut RowClock, frames: f64| {
+            #[expect(clippy::cast_possible_truncation, reason = "two frames at most")]
             let nanos = (frames * 1_001.0 / 30_000.0 * 1e9).round() as i64;
             label(&clock.at(None, nanos))
         };

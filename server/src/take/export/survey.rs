@@ -72,7 +72,7 @@ impl Survey {
                 self.columns.add(source, self.header.as_ref())?;
             }
             Entry::Event(Event::Gap(gap)) => self.span.explain(gap),
-            Entry::Event(_) => {}
+            Entry::Event(_) | Entry::Unknown => {}
         }
         Ok(())
     }

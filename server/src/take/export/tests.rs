@@ -103,7 +103,7 @@ fn timecode(number: u64) -> Timecode {
     let is_first = number < 12;
     Timecode {
         hours: 1,
-        minutes: if is_first { 0 } else { 1 },
+        minutes: u32::from(!is_first),
         seconds: if is_first { 59 } else { 0 },
         frames: if is_first { 29 } else { 2 },
         rate_numerator: 30_000,
@@ -167,6 +167,7 @@ fn rest(mut export: Export) -> (Vec<u8>, v1::TakeExport) {
             Step::Working => {}
             Step::Over => break,
             Step::Piece(piece) => {
+                let piece = *piece;
                 assert!(piece.chunk.len() <= PIECE_BYTES);
                 assert!(last.is_none(), "the last words are the last");
                 bytes.extend(piece.chunk);
@@ -375,7 +376,7 @@ fn a_take_without_rows_is_refused_where_a_format_needs_one() {
     let (table, told) = exported(source(&fs), TakeFormat::Csv);
     assert_eq!(
         (
-            table.iter().filter(|it| **it == b'\n').count(),
+            String::from_utf8(table).unwrap().lines().count(),
             told.n_frames
         ),
         (1, 0)

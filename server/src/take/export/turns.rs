@@ -47,6 +47,7 @@ impl Clock {
             self.start_nanos = Some(capture_time_nanos);
             return true;
         };
+        #[expect(clippy::cast_possible_truncation, reason = "glTF holds times as f32")]
         let time_s = seconds(start_nanos, capture_time_nanos) as f32;
         let is_later = time_s > self.last_s;
         if is_later {

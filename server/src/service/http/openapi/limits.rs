@@ -106,7 +106,9 @@ pub(super) fn of(message: &str, field: &str) -> Option<Value> {
             json!({ "minimum": 0, "maximum": 1, "pattern": STRENGTH })
         }
         // Off, until this version can.
-        ("SessionSettings", "record" | "record_images") => json!({ "enum": [false] }),
+        ("SessionSettings", "record_images") | ("StartTakeRequest", "with_images") => {
+            json!({ "enum": [false] })
+        }
         ("ControlBounds", "lower" | "upper") => {
             json!({ "minimum": 0, "maximum": LARGEST_BOUND, "pattern": BOUND })
         }
@@ -117,7 +119,6 @@ pub(super) fn of(message: &str, field: &str) -> Option<Value> {
             json!({ "maxLength": MAX_LABEL, "pattern": TAKE_TEXT })
         }
         ("Take", "notes") => json!({ "maxLength": MAX_NOTES, "pattern": TAKE_TEXT }),
-        ("StartTakeRequest", "with_images") => json!({ "enum": [false] }),
         ("UpdateTakeRequest", "update_mask") => json!({ "pattern": TAKE_MASK }),
         _ => return None,
     };

@@ -134,7 +134,7 @@ pub(in crate::service::http) async fn download(
         Ok(TakeFormat::Unspecified | TakeFormat::Mcap) => {
             let caller = Caller::of(call.extensions());
             let opened = doors.services.takes.open_file(request).await?;
-            stored(opened, &headers, &caller)
+            Ok(stored(opened, &headers, &caller))
         }
         _ => exported::response(&doors, request).await,
     }
@@ -150,19 +150,19 @@ pub(super) fn disposition(name: &str) -> HeaderValue {
     HeaderValue::try_from(value).unwrap_or(HeaderValue::from_static("attachment"))
 }
 
-fn stored(file: OpenTakeFile, headers: &HeaderMap, caller: &Caller) -> Result<Response, Problem> {
+fn stored(file: OpenTakeFile, headers: &HeaderMap, caller: &Caller) -> Response {
     let n_bytes = file.stored.n_bytes;
     let tag = file.is_final().then(|| tag(&file));
     let wanted = match &tag {
         Some(tag) if is_held(headers, tag) => {
-            return Ok((StatusCode::NOT_MODIFIED, caching(tag)).into_response());
+            return (StatusCode::NOT_MODIFIED, caching(tag)).into_response();
         }
         Some(tag) => range::wanted(headers, tag, n_bytes),
         None => Ok(None),
     };
     let part = match wanted {
         Ok(part) => part,
-        Err(Unsatisfiable) => return Ok(unsatisfiable(n_bytes)),
+        Err(Unsatisfiable) => return unsatisfiable(n_bytes),
     };
     let mut answer = StatusCode::OK.into_response();
     *answer.headers_mut() = headers_of(&file, tag.as_deref());
@@ -179,7 +179,7 @@ fn stored(file: OpenTakeFile, headers: &HeaderMap, caller: &Caller) -> Result<Re
         .headers_mut()
         .insert(header::CONTENT_LENGTH, length.into());
     *answer.body_mut() = paced(caller.while_valid(pieces(file, part)));
-    Ok(answer)
+    answer
 }
 
 /// What is said of the file, whole or in part.

@@ -38,24 +38,18 @@ pub(super) fn wanted(
 }
 
 fn bytes(range: &str, n_bytes: u64) -> Option<Range<u64>> {
-    let (first, last) = range.trim().split_once('-')?;
-    let range = match (number(first)?, number(last)?) {
-        (None, None) => return None,
-        (None, Some(n_last)) => n_bytes.saturating_sub(n_last)..n_bytes,
-        (Some(first), None) => first..n_bytes,
-        (Some(first), Some(last)) if first <= last => first..last.saturating_add(1).min(n_bytes),
-        (Some(_), Some(_)) => return None,
+    let range = match range.trim().split_once('-')? {
+        ("", n_last) => n_bytes.saturating_sub(number(n_last)?)..n_bytes,
+        (first, "") => number(first)?..n_bytes,
+        (first, last) => number(first)?..number(last)?.saturating_add(1).min(n_bytes),
     };
     (range.start < range.end).then_some(range)
 }
 
-/// Digits, or nothing at all; more of them than a number holds are a number beyond every file.
-fn number(digits: &str) -> Option<Option<u64>> {
-    if digits.is_empty() {
-        return Some(None);
-    }
-    let is_number = digits.bytes().all(|it| it.is_ascii_digit());
-    is_number.then(|| Some(digits.parse().unwrap_or(u64::MAX)))
+/// Digits; more of them than a number holds are a number beyond every file.
+fn number(digits: &str) -> Option<u64> {
+    let is_number = !digits.is_empty() && digits.bytes().all(|it| it.is_ascii_digit());
+    is_number.then(|| digits.parse().unwrap_or(u64::MAX))
 }
 
 #[cfg(test)]

@@ -1,5 +1,7 @@
 //! `POST /api/v1/takes/{id}/resolve`: `ResolveTake` as lines of JSON, one as often as there is progress.
 
+use std::convert::Infallible;
+
 use axum::{
     body::Body,
     extract::State,
@@ -65,21 +67,20 @@ pub(in crate::service::http) async fn resolve(
     let request = call.request(v1::ResolveTakeRequest { name, ..message });
     let response = doors.services.takes.resolve_take(request).await?;
     let instance = uri.path().to_owned();
-    let lines = response.into_inner().map(move |it| line(it, &instance));
+    let lines = response
+        .into_inner()
+        .map(move |it| Ok::<_, Infallible>(line(it, &instance)));
     let kind = HeaderValue::from_static("application/x-ndjson");
     let headers = [(header::CONTENT_TYPE, kind)];
     Ok((headers, Body::from_stream(lines)).into_response())
 }
 
 /// One answer; a failure is the last.
-fn line(
-    answer: Result<v1::ResolveTakeResponse, Status>,
-    instance: &str,
-) -> Result<Bytes, std::convert::Infallible> {
+fn line(answer: Result<v1::ResolveTakeResponse, Status>, instance: &str) -> Bytes {
     let mut text = Vec::new();
     if let Err(status) = answer.and_then(|it| write_json(&it, &mut text)) {
         text = Problem::from(status).in_stream(instance).into_bytes();
     }
     text.push(b'\n');
-    Ok(Bytes::from(text))
+    Bytes::from(text)
 }
