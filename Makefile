@@ -137,6 +137,10 @@ bench: ## CPU time of the solve, the stage and the alignment, one thread
 bench-load: ## 64 sessions at 120 Hz with a subscriber each, 30 s: losses and latency
 	cargo run --release --package frontalis-tests --bin load
 
+.PHONY: bench-takes
+bench-takes: ## A take of 10 min of 27 markers at 120 Hz solved again, plain and by default: processor time of one core
+	cargo run --release --package frontalis-tests --bin takes
+
 .PHONY: accuracy
 accuracy: scipy ## Errors beside those of other methods where the truth is known: writes docs/accuracy.md and its pictures
 	cargo run --release --package frontalis-tests --bin accuracy
@@ -173,6 +177,28 @@ simulations: ## Publisher, server and subscriber under SEEDS (200) schedules of 
 	  | grep --extended-regexp 'simulations,|test result|seed'
 	@cargo test --package frontalis-server --lib -- --nocapture --test-threads 1 intake::model \
 	  | grep --extended-regexp 'states|after|test result'
+
+# Each writes its section of docs/reliability.md.
+RUNS ?= 200
+CYCLES ?= 100
+TAKES_SECONDS ?= 30
+RELIABILITY := cargo run --release --package frontalis-tests --bin reliability --
+.PHONY: kill-test drain-test bench-recovery bench-takes
+kill-test: release-server ## A recording server killed RUNS (200) times: no acknowledged frame is lost
+	$(RELIABILITY) kill $(RUNS)
+
+drain-test: release-server ## A recording server drained and started again CYCLES (100) times
+	$(RELIABILITY) drain $(CYCLES)
+
+bench-recovery: release-server ## 100,000 takes, 10,000 of them open, and one of a million frames: when the server is ready
+	$(RELIABILITY) recovery
+
+bench-takes: release-server ## 64 sessions recorded at 120 Hz: what is shed, how far stable storage is behind, bytes a frame
+	$(RELIABILITY) takes $(TAKES_SECONDS)
+
+.PHONY: release-server
+release-server:
+	cargo build --release --bin frontalis-server
 
 .PHONY: bench-doors
 bench-doors: ## Processor time of a delivered sample at each door beside plain TCP, and what clients that do not read cost

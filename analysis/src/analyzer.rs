@@ -1,5 +1,7 @@
 //! The state of one session: marker frame in, curve sample out.
 
+mod lasting;
+
 pub use crate::marker_analysis::{
     objective::{MuscleBounds, Objective, ObjectiveError},
     settings::{MarkerSettings, RegionMode},

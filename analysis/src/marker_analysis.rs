@@ -13,6 +13,7 @@ pub mod neutral_watch;
 mod noise;
 pub mod objective;
 mod plain_uncertainty;
+pub(crate) mod positions_on_tape;
 pub mod range;
 mod reproduction;
 pub mod settings;

@@ -10,3 +10,4 @@ pub mod posterior;
 pub(crate) mod projection;
 pub mod similarity_fit;
 pub mod standing_qp;
+pub mod tape;

@@ -6,6 +6,7 @@
 //! on live frames would refuse them.
 //! A publisher that was fenced (D-29) stops for good.
 
+mod clock_echo;
 mod publication;
 pub mod ranges;
 pub mod report;
@@ -19,6 +20,7 @@ use tokio_util::task::AbortOnDropHandle;
 use tonic::Code;
 
 use self::{
+    clock_echo::Echoes,
     publication::{Publication, open},
     report::PublishReport,
     ring::RingLimits,
@@ -29,6 +31,8 @@ use crate::{
     error::ClientError,
     proto::{Ingest, LengthUnit, MarkerFrame, PublishStart, PublishStarted},
 };
+
+pub use clock_echo::CaptureClock;
 
 /// How long [`CaptureClient::finish`] waits while no further frame is settled.
 const FINISH_PATIENCE: Duration = Duration::from_secs(30);
@@ -116,12 +120,26 @@ impl CaptureClient {
     ///
     /// When the server cannot be reached or refuses the publication.
     pub async fn start(channel: Channel, settings: CaptureSettings) -> Result<Self, ClientError> {
+        Self::start_on_clock(channel, settings, None).await
+    }
+
+    /// The same; with the capture clock, the server learns how it stands to its own.
+    ///
+    /// # Errors
+    ///
+    /// As of [`Self::start`].
+    pub async fn start_on_clock(
+        channel: Channel,
+        settings: CaptureSettings,
+        clock: Option<CaptureClock>,
+    ) -> Result<Self, ClientError> {
         let start = settings.start(settings.takeover, settings.ingest);
         let (stream, first) = open(&channel, start).await?;
         let shared = Arc::new(Shared::new(RingLimits::for_rate(settings.rate_hz)));
         let started = shared.begin_connection(&first);
         let ingest = settings.ingest;
-        let publication = Publication::new(Arc::clone(&shared), channel, settings);
+        let publication =
+            Publication::new(Arc::clone(&shared), channel, settings, Echoes::of(clock));
         let driver = AbortOnDropHandle::new(tokio::spawn(publication.run(stream)));
         Ok(Self {
             shared,

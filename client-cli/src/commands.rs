@@ -23,6 +23,7 @@ mod solve_report;
 mod stage_run;
 pub mod take;
 pub mod token;
+mod unit;
 pub mod watch;
 
 use std::process::ExitCode;

@@ -9,9 +9,9 @@
 //! | [`backoff`] | how long to wait before trying again |
 //! | [`simulated_stage`] | an actor, cameras and a performance, for a stage without a studio |
 //! | [`recorded_take`] | what a take recorded, message after message |
-//! | [`take_file`] | a TRC file as frames to publish or to solve |
+//! | [`take_file`] | a TRC or C3D file as frames to publish or to solve |
 //! | [`solve`] | the same analysis without a server |
-//! | [`csv`] | curves as a table, the same bytes from a server and from a file |
+//! | [`csv`] | samples as rows of a table, the same bytes from a server and from a file |
 
 pub mod backoff;
 pub mod capture_client;

@@ -249,6 +249,7 @@ mod tests {
             unit: LengthUnit::Centimeter,
             marker_names: actor.markers().iter().map(|it| it.name.clone()).collect(),
             frames,
+            start_timecode: None,
         };
         (actor, take, truth)
     }

@@ -6,10 +6,12 @@
 //! The code under `src/generated/` is made from them and committed, so that building needs no protobuf compiler;
 //! `tests/generated_is_current.rs` fails when it is stale and says how to make it anew.
 
+mod export_name;
 mod field_mask;
 mod timestamp;
 mod words;
 
+pub use export_name::export_file_name;
 pub use field_mask::{FieldMask, json_name};
 pub use timestamp::Timestamp;
 

@@ -5,8 +5,12 @@
 //! The methods of [`Catalogue`] block; [`Store`] is the same for async callers.
 
 mod actors;
+mod age;
 mod alignment;
+mod erasure;
+mod left_over;
 mod lock;
+mod owner;
 mod packages;
 mod revision;
 mod schema;
@@ -14,6 +18,7 @@ mod sessions;
 mod settings;
 mod store;
 mod takes;
+mod timecode;
 
 use std::{
     io,
@@ -26,6 +31,7 @@ use rusqlite::Connection;
 use crate::fs::{Fs, MemFs, StdFs};
 
 pub use alignment::StoredAlignment;
+pub use erasure::{Doomed, ErasedActor};
 pub use revision::{ActorRevision, Layout, NewRevision};
 pub use sessions::{NewSession, SessionRow};
 pub use settings::StoredSettings;
@@ -45,10 +51,12 @@ pub enum CatalogueError {
     #[error("the data directory could not be used")]
     Storage(#[from] io::Error),
     /// The data directory cannot be used at the start.
-    #[error("the data directory {} could not be used", dir.display())]
+    #[error("the data directory {} could not be used{owner}", dir.display())]
     Directory {
         /// The data directory.
         dir: PathBuf,
+        /// Whose it is and who wants to use it, in words; empty where that cannot be told.
+        owner: String,
         /// What the system says.
         source: io::Error,
     },
@@ -91,6 +99,9 @@ pub enum CatalogueError {
     /// No actor of that id, or no such revision of it.
     #[error("no such actor or revision")]
     NoActor,
+    /// The actor is being erased.
+    #[error("the actor is being erased")]
+    BeingErased,
     /// The actor is used by sessions that have not ended.
     #[error("{n_sessions} sessions use this actor")]
     ActorInUse {
@@ -114,11 +125,24 @@ pub enum CatalogueError {
 }
 
 impl CatalogueError {
+    /// Whether the database itself is broken, so that opening it again will not help.
+    pub fn is_damage(&self) -> bool {
+        use rusqlite::ErrorCode::{DatabaseCorrupt, NotADatabase};
+        let Self::Damaged { source, .. } = self else {
+            return false;
+        };
+        matches!(
+            source.sqlite_error_code(),
+            Some(DatabaseCorrupt | NotADatabase)
+        )
+    }
+
     /// Names the path, for the operator who has to look there.
     fn at(self, dir: &Path) -> Self {
         match self {
             Self::Storage(source) => Self::Directory {
                 dir: dir.to_owned(),
+                owner: owner::of(dir),
                 source,
             },
             Self::Database(source) => Self::Damaged {
@@ -160,6 +184,18 @@ impl Catalogue {
         Self::start(connection, Arc::new(StdFs), dir, Some(lock))
     }
 
+    /// A catalogue in memory beside a directory whose database is damaged: the directory is locked, and left as it is.
+    ///
+    /// # Errors
+    ///
+    /// [`CatalogueError::InUse`], or that the directory cannot be used.
+    pub fn stand_in(dir: &Path) -> Result<Self, CatalogueError> {
+        let lock = lock::DirectoryLock::take(dir).map_err(|error| error.at(dir))?;
+        let connection = Connection::open_in_memory()?;
+        let files = Arc::new(MemFs::default());
+        Self::start(connection, files, Path::new("/"), Some(lock))
+    }
+
     /// A catalogue that lives in memory and is gone with this value; package bytes go to `files`.
     ///
     /// # Errors
@@ -196,6 +232,9 @@ impl Catalogue {
         };
         catalogue.fs.create_dir_all(&catalogue.packages)?;
         catalogue.sweep_packages()?;
+        catalogue.doom_claimed_takes()?;
+        // What was deleted before a crash is not left in the log either.
+        catalogue.scrub_log()?;
         Ok(catalogue)
     }
 

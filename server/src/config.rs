@@ -16,7 +16,10 @@ use serde::{Deserialize, Serialize};
 
 pub use error::ConfigError;
 pub use http::{Http, Origin};
-pub use memory::{LARGE_BODIES, LARGE_BODY_BYTES, MemoryItem, SMALL_MESSAGE_BYTES, worst_case};
+pub use memory::{
+    LARGE_BODIES, LARGE_BODY_BYTES, MemoryItem, RESOLVES, SMALL_MESSAGE_BYTES, TAKE_EXPORTS,
+    worst_case,
+};
 use ranges::ranges;
 pub use tls::Tls;
 
@@ -48,6 +51,8 @@ pub struct Config {
     pub workers: u64,
     /// How long ended and never used sessions are kept, hours.
     pub session_retention_hours: u64,
+    /// How long recordings are kept.
+    pub retention: Retention,
     /// What is refused beyond which number.
     pub limits: Limits,
     /// Buffers and deadlines of connections.
@@ -56,6 +61,21 @@ pub struct Config {
     pub tls: Tls,
     /// What browsers may do.
     pub http: Http,
+}
+
+/// How long personal data are kept, by class (CONTRACTS S-13).
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct Retention {
+    /// Days after its end that a take is erased; 0: never.
+    pub takes_days: u64,
+}
+
+impl Retention {
+    /// How long takes are kept; `None`: until somebody erases them.
+    pub fn takes(&self) -> Option<Duration> {
+        (self.takes_days > 0).then(|| Duration::from_hours(self.takes_days.saturating_mul(24)))
+    }
 }
 
 /// Limits of what clients may make the server hold (CONTRACTS O-1, D-18).
@@ -142,6 +162,7 @@ impl Default for Config {
             memory_budget_mib: 12_288,
             workers: 2,
             session_retention_hours: 24,
+            retention: Retention::default(),
             limits: Limits::default(),
             transport: Transport::default(),
             tls: Tls::default(),

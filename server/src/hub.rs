@@ -10,7 +10,6 @@ mod curve_hub;
 mod quota;
 mod sample;
 mod subscription;
-mod timecode;
 mod times;
 mod window;
 
@@ -21,7 +20,6 @@ pub use sample::{Gap, GapCause, Outgoing, PublishedSample, SampleTag, SessionSta
 pub use subscription::{
     Delivered, Delivery, MAX_CREDITS, StartAt, SubscribeError, SubscribeSpec, Subscription, Update,
 };
-pub use timecode::Timecode;
 pub use times::Latency;
 pub(crate) use times::Times;
 pub use window::{LostRange, RangeError};

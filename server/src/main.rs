@@ -18,7 +18,7 @@ use tokio_util::sync::CancellationToken;
 
 fn main() -> ExitCode {
     match start(&Flags::parse()) {
-        Ok(()) => ExitCode::SUCCESS,
+        Ok(code) => code,
         Err(error) => {
             // One line, the cause last, so that an operator sees it without a log reader.
             eprintln!("frontalis-server: {error:#}");
@@ -27,30 +27,45 @@ fn main() -> ExitCode {
     }
 }
 
-fn start(flags: &Flags) -> anyhow::Result<()> {
+/// Exit code of a server that only showed the takes of a damaged data directory.
+const RESCUED: u8 = 3;
+
+fn start(flags: &Flags) -> anyhow::Result<ExitCode> {
     let environment = std::env::vars_os()
         .filter_map(|(name, value)| Some((name.into_string().ok()?, value.into_string().ok()?)));
     let config = load(flags, environment)?;
     if flags.check {
         print!("{}", config.to_toml());
         print_memory(&config);
-        return Ok(());
+        return Ok(ExitCode::SUCCESS);
     }
     start_log(&config.log)?;
-    tokio::runtime::Builder::new_multi_thread()
+    let runtime = tokio::runtime::Builder::new_multi_thread()
         .enable_all()
         .build()
-        .context("the runtime cannot be started")?
-        .block_on(serve(config))
+        .context("the runtime cannot be started")?;
+    let code = runtime.block_on(serve(config));
+    // A long take that is being put into its final form is not waited for: the next start does it again.
+    runtime.shutdown_background();
+    code
 }
 
-async fn serve(config: Config) -> anyhow::Result<()> {
+async fn serve(config: Config) -> anyhow::Result<ExitCode> {
     let mut signals = StopSignals::take().context("the signals cannot be taken over")?;
     let mut hang_ups = ReloadSignal::take().context("the signals cannot be taken over")?;
     let listener = bind(config.listen, &config.transport).map_err(|error| busy(&config, error))?;
     say(&config);
     let shutdown = CancellationToken::new();
     let server = frontalis_server::run(config, listener, shutdown.clone()).await?;
+    let code = match server.rescue() {
+        Some(why) => {
+            eprintln!(
+                "frontalis-server: RESCUE: {why}\nfrontalis-server: nothing is changed; the takes that were found can be listed and exported"
+            );
+            ExitCode::from(RESCUED)
+        }
+        None => ExitCode::SUCCESS,
+    };
     println!("listening on {}", server.url());
     let signal = loop {
         tokio::select! {
@@ -61,7 +76,7 @@ async fn serve(config: Config) -> anyhow::Result<()> {
     tracing::info!(signal, "asked to stop");
     shutdown.cancel();
     tokio::select! {
-        _ = server.stopped() => Ok(()),
+        _ = server.stopped() => Ok(code),
         signal = signals.next() => {
             tracing::warn!(signal, "asked again, stopping at once");
             std::process::exit(1);

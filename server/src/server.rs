@@ -21,6 +21,7 @@ use crate::{
         audit::Audit,
         calls::Calls,
         door::{self, ReflectionError, Services},
+        erasure::Erasure,
         grpc::{
             actors::{ActorLimits, ActorsGrpc},
             capture::CaptureGrpc,
@@ -36,12 +37,14 @@ use crate::{
             Incoming, Listener,
             tls::{Tls, TlsError},
         },
+        readiness::Readiness,
+        retention::Retention,
         sessions::Sessions,
+        take_exports::TakeExports,
         takes::Takes,
     },
     session::{SessionLimits, SessionRegistry},
     shutdown::Phases,
-    take::Recorder,
     telemetry::Metrics,
 };
 
@@ -77,6 +80,7 @@ pub struct Server {
     metrics: Metrics,
     registry: SessionRegistry,
     is_tls: bool,
+    rescue: Option<String>,
     reload: Reload,
     end: tokio::task::JoinHandle<bool>,
 }
@@ -108,6 +112,11 @@ impl Server {
         &self.registry
     }
 
+    /// Why it only shows the takes that it found: its catalogue is damaged.
+    pub fn rescue(&self) -> Option<&str> {
+        self.rescue.as_deref()
+    }
+
     /// Waits until everything is joined. True: all of it ended by itself; false: the grace was over and the rest was
     /// cut.
     pub async fn stopped(self) -> bool {
@@ -117,7 +126,8 @@ impl Server {
 
 /// Starts a server on a bound port; it drains and stops when `shutdown` is cancelled.
 ///
-/// The data directory is `config.data_dir`, or memory; see [`crate::config::IN_MEMORY`].
+/// The data directory is `config.data_dir`, or memory; see [`crate::config::IN_MEMORY`]. When its catalogue is damaged, the
+/// server starts all the same, changes nothing, and shows the takes that it finds ([`Server::rescue`]).
 ///
 /// # Errors
 ///
@@ -155,6 +165,7 @@ pub async fn run_on(
     let metrics = first_figures(&config, protection);
 
     let (store, heavy) = (ground.store.clone(), ground.heavy.clone());
+    let rescue = ground.rescue;
     let (audit, audited) = Audit::new();
     let (events, kept) = mpsc::channel(EVENT_CAPACITY);
     let limits = session_limits(&config.limits);
@@ -168,7 +179,20 @@ pub async fn run_on(
         ground.files,
         ground.takes,
     )?;
+    takes.recorder().look_at_disk().await;
     let phases = Phases::default();
+    let readiness = Readiness {
+        phases: phases.clone(),
+        rescue: rescue.clone(),
+        disk: takes.recorder().room(),
+    };
+    let erasure = Erasure {
+        store: store.clone(),
+        registry: registry.clone(),
+        takes: takes.clone(),
+        clock,
+        audit: audit.clone(),
+    };
     let services = Services {
         actors: ActorsGrpc::new(
             store.clone(),
@@ -176,7 +200,7 @@ pub async fn run_on(
             clock,
             heavy,
             actor_limits(&config.limits),
-            audit.clone(),
+            erasure.clone(),
         ),
         sessions: SessionsGrpc::new(sessions.clone(), audit.clone()),
         capture: CaptureGrpc::new(
@@ -184,10 +208,19 @@ pub async fn run_on(
             store.clone(),
             clock,
             audit.clone(),
-            takes.recorder().clone(),
+            takes.clone(),
         ),
         curves: CurvesGrpc::new(registry.clone(), store.clone(), clock, takes.replays()),
-        takes: TakesGrpc::new(takes.clone()),
+        takes: TakesGrpc::new(
+            takes.clone(),
+            TakeExports::new(
+                ground.threads,
+                takes.clone(),
+                store.clone(),
+                count(config.limits.exports),
+            ),
+            audit.clone(),
+        ),
         server: ServerGrpc::new(clock, protection, phases.clone()),
         max_message_bytes: config.limits.message_bytes(),
         message_deadline: Duration::from_secs(config.transport.message_deadline_secs),
@@ -196,7 +229,7 @@ pub async fn run_on(
     let doors = Doors {
         services,
         metrics: metrics.clone(),
-        phases: phases.clone(),
+        readiness: readiness.clone(),
         large_bodies: LargeBodies::default(),
     };
     let access = access(&config, audit.clone(), metrics.clone())?;
@@ -212,10 +245,25 @@ pub async fn run_on(
         clock,
     };
     upkeep.spawn(keeper.run(kept, drained.clone()));
-    let recorder = start_recorder(&takes, &upkeep, &drained).await?;
-    let retention = Duration::from_secs(config.session_retention_hours * 3_600);
-    restore(&sessions).await?;
-    upkeep.spawn(keeper::collect(sessions, retention, drained.clone()));
+    let recorder = takes.recorder().clone();
+    if let Some(why) = &rescue {
+        let n_takes = takes.list_by_files().await?;
+        tracing::error!(
+            why,
+            n_takes,
+            "RESCUE: nothing is changed, the takes that were found are shown"
+        );
+    } else {
+        let retention = Retention {
+            erasure,
+            takes: config.retention.takes(),
+        };
+        start_recorder(&takes, retention, &upkeep, &drained).await?;
+        restore(&sessions).await?;
+        let kept = Duration::from_hours(config.session_retention_hours);
+        upkeep.spawn(keeper::collect(sessions, kept, drained.clone()));
+    }
+    upkeep.spawn(door::report_disk(health.clone(), readiness.clone()));
 
     let reload = Reload::default();
     if let Some(tls) = &tls {
@@ -239,6 +287,7 @@ pub async fn run_on(
     let ending = Ending {
         grace: config.shutdown_grace(),
         phases,
+        readiness,
         health,
         registry: registry.clone(),
         connections,
@@ -256,6 +305,7 @@ pub async fn run_on(
         metrics,
         registry,
         is_tls: tls.is_some(),
+        rescue,
         reload,
         end,
     })
@@ -269,19 +319,27 @@ async fn restore(sessions: &Sessions) -> Result<(), RunError> {
     Ok(())
 }
 
-/// Brings the last process's takes into order, and lets new ones be recorded.
+/// Lets takes be recorded, and brings the last process's into order meanwhile; what was being erased is gone before.
 async fn start_recorder(
     takes: &Takes,
+    retention: Retention,
     upkeep: &TaskTracker,
     drained: &CancellationToken,
-) -> Result<Recorder, RunError> {
-    let n_recovered = takes.recover().await?;
-    if n_recovered > 0 {
-        tracing::info!(n_recovered, "takes that were cut short are whole again");
-    }
-    let recorder = takes.recorder().clone();
+) -> Result<(), RunError> {
+    retention.erasure.finish().await?;
+    let left_over = takes.look_at_left_over().await?;
+    let (recovering, stopped) = (takes.clone(), drained.clone());
+    upkeep.spawn(async move {
+        tokio::select! {
+            () = recovering.recover(left_over) => {}
+            () = stopped.cancelled() => {}
+        }
+    });
+    upkeep.spawn(retention.run(drained.clone()));
+    let recorder = takes.recorder();
     upkeep.spawn(recorder.clone().commit(drained.clone()));
-    Ok(recorder)
+    upkeep.spawn(recorder.clone().watch_disk(drained.clone()));
+    Ok(())
 }
 
 fn actor_limits(limits: &Limits) -> ActorLimits {

@@ -42,6 +42,7 @@ struct Inner {
     subscriber_samples: Family<SamplesLabel, Gauge<i64, AtomicI64>>,
     latencies: Family<LatencyLabel, Gauge<f64, AtomicU64>>,
     ready: Gauge,
+    ready_to_record: Gauge,
     insecure: Gauge,
     worst_case_bytes: Gauge<u64, AtomicU64>,
 }
@@ -199,6 +200,7 @@ impl Metrics {
             subscriber_samples: Family::default(),
             latencies: Family::default(),
             ready: Gauge::default(),
+            ready_to_record: Gauge::default(),
             insecure: Gauge::default(),
             worst_case_bytes: Gauge::default(),
         };
@@ -289,6 +291,11 @@ impl Metrics {
     /// Whether new sessions are accepted.
     pub fn set_ready(&self, ready: bool) {
         self.0.ready.set(ready.into());
+    }
+
+    /// Whether new takes may start.
+    pub fn set_ready_to_record(&self, ready: bool) {
+        self.0.ready_to_record.set(ready.into());
     }
 
     /// Whether others can reach the port without protection.
@@ -436,6 +443,11 @@ impl Inner {
             self.latencies.clone(),
         );
         it.register("ready", "1: new sessions are accepted", self.ready.clone());
+        it.register(
+            "ready_to_record",
+            "1: new takes may start",
+            self.ready_to_record.clone(),
+        );
         it.register(
             "insecure",
             "1: others can reach the port, without TLS or without tokens",

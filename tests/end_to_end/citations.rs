@@ -74,7 +74,7 @@ fn what_is_cited_of_the_contracts_stands_there_and_is_in_force() {
     let statements = statements();
     assert!(statements.len() > 80, "{} statements", statements.len());
     let n_waiting = statements.values().filter(|it| !**it).count();
-    assert!(n_waiting > 5, "{n_waiting} statements wait");
+    assert!(n_waiting > 0, "{n_waiting} statements wait");
     for source in CRATES.into_iter().flat_map(sources::of) {
         for id in cited(&source.text) {
             let is_in_force = statements.get(&id).copied();

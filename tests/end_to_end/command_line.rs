@@ -288,6 +288,7 @@ fn a_take() -> String {
         unit: LengthUnit::Millimeter,
         marker_names: performance.marker_names().to_vec(),
         frames: performance.frames(1..=60).iter().map(frame).collect(),
+        start_timecode: None,
     };
     trc::write(&take, "take")
 }

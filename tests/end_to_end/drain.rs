@@ -1,7 +1,8 @@
 //! A server that is told to stop says so to everyone, and is gone within its grace.
 
 use harness::{
-    Heard, Publisher, Subscriber, TestPerformance, TestServer, assert_refused, every_frame, latest,
+    DrainProfile, Heard, Publisher, Subscriber, TestPerformance, TestServer, assert_refused,
+    every_frame, latest,
 };
 use tonic::Code;
 
@@ -35,6 +36,17 @@ async fn a_drain_closes_every_stream_with_its_reason_and_never_with_an_end() {
     let (_, status) = rendering.await.unwrap();
     assert_refused(&status, Code::Unavailable, "DRAINING");
     server.stop().await;
+}
+
+/// `make drain-test` has a hundred.
+const CYCLES: usize = 5;
+
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn a_recording_server_loses_nothing_durable_over_drains_and_restarts() {
+    let report = DrainProfile { n_cycles: CYCLES }.run().await;
+    println!("G10: {report}");
+    assert!(report.is_clean(), "{report}");
+    assert!(report.n_durable > 0);
 }
 
 #[tokio::test(flavor = "multi_thread", worker_threads = 2)]

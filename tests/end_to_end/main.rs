@@ -15,6 +15,7 @@ mod curves_http;
 mod demo;
 mod diagnosis;
 mod drain;
+mod erasure;
 mod every_door;
 mod http_api;
 mod late_renderer;

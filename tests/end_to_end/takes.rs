@@ -1,22 +1,30 @@
 //! What was acknowledged is in the take, whatever happens to the process (CONTRACTS U-1, U-3, U-5).
 
+mod c3d_files;
 mod copied;
 mod crash;
+mod downloads;
+mod exports;
 mod labels;
+mod options;
 mod play;
+mod power_cut;
+mod python;
 mod recording;
 mod replay;
+mod resolve;
 mod resumed;
 
 use frontalis_proto::v1::{
-    ExportTakeRequest, GetTakeRequest, StartTakeRequest, StopTakeRequest, Take,
+    ExportTakeRequest, GetTakeRequest, MarkerFrame, StartTakeRequest, StopTakeRequest, Take,
+    TakeExport, TakeFormat,
 };
 use harness::{Publisher, TestPerformance, TestServer};
 use tonic::Status;
 
-const SESSION: &str = "sessions/stage";
+pub const SESSION: &str = "sessions/stage";
 
-async fn start(server: &TestServer, session: &str, slate: &str) -> Result<Take, Status> {
+pub async fn start(server: &TestServer, session: &str, slate: &str) -> Result<Take, Status> {
     let request = StartTakeRequest {
         session: session.to_owned(),
         slate: slate.to_owned(),
@@ -27,13 +35,13 @@ async fn start(server: &TestServer, session: &str, slate: &str) -> Result<Take, 
 }
 
 /// A recording of the session that has begun, and who publishes into it.
-async fn record(server: &TestServer, performance: &TestPerformance) -> (Take, Publisher) {
+pub async fn record(server: &TestServer, performance: &TestPerformance) -> (Take, Publisher) {
     let take = start(server, SESSION, "").await.unwrap();
     let publisher = Publisher::open(server, performance.start(SESSION, "stage"));
     (take, publisher.await.unwrap())
 }
 
-async fn stop(server: &TestServer, name: &str) -> Result<Take, Status> {
+pub async fn stop(server: &TestServer, name: &str) -> Result<Take, Status> {
     let request = StopTakeRequest {
         name: name.to_owned(),
     };
@@ -41,7 +49,7 @@ async fn stop(server: &TestServer, name: &str) -> Result<Take, Status> {
     Ok(answer.into_inner().take.unwrap())
 }
 
-async fn get(server: &TestServer, name: &str) -> Result<Take, Status> {
+pub async fn get(server: &TestServer, name: &str) -> Result<Take, Status> {
     let request = GetTakeRequest {
         name: name.to_owned(),
     };
@@ -50,16 +58,39 @@ async fn get(server: &TestServer, name: &str) -> Result<Take, Status> {
 }
 
 /// The take's file.
-async fn export(server: &TestServer, name: &str) -> Vec<u8> {
+pub async fn export(server: &TestServer, name: &str) -> Vec<u8> {
+    let exported = export_as(server, name, TakeFormat::Mcap).await;
+    exported.unwrap().0
+}
+
+/// The take in a format, and what was said of it last.
+async fn export_as(
+    server: &TestServer,
+    name: &str,
+    format: TakeFormat,
+) -> Result<(Vec<u8>, TakeExport), Status> {
     let request = ExportTakeRequest {
         name: name.to_owned(),
-        ..ExportTakeRequest::default()
+        format: format.into(),
     };
     let mut client = server.takes().await;
-    let mut pieces = client.export_take(request).await.unwrap().into_inner();
-    let mut file = Vec::new();
-    while let Some(piece) = pieces.message().await.unwrap() {
+    let mut pieces = client.export_take(request).await?.into_inner();
+    let (mut file, mut told) = (Vec::new(), None);
+    while let Some(piece) = pieces.message().await? {
         file.extend(piece.chunk);
+        told = piece.export.or(told);
     }
-    file
+    Ok((file, told.unwrap()))
+}
+
+/// A take of a performance's first frames, which is over, and what they were.
+async fn recorded(server: &TestServer, slate: &str, frames: Vec<MarkerFrame>) -> Take {
+    let performance = TestPerformance::reference();
+    let take = start(server, SESSION, slate).await.unwrap();
+    let start = performance.start(SESSION, "stage");
+    let mut publisher = Publisher::open(server, start).await.unwrap();
+    let last = frames.last().unwrap().number;
+    publisher.send(frames).await;
+    publisher.durable(last).await.unwrap();
+    stop(server, &take.name).await.unwrap()
 }

@@ -1,6 +1,6 @@
 //! A whole server inside the test: the real listener on port 0, a folder of its own, stopped by a value.
 
-use std::net::SocketAddr;
+use std::{net::SocketAddr, path::Path, sync::Arc};
 
 use frontalis_proto::v1::{
     Actor, CreateSessionRequest, EndSessionRequest, GetSessionRequest, ImportActorRequest,
@@ -8,7 +8,12 @@ use frontalis_proto::v1::{
     actor_service_client::ActorServiceClient, session_service_client::SessionServiceClient,
     take_service_client::TakeServiceClient,
 };
-use frontalis_server::{Server, config::Config};
+use frontalis_server::{
+    Ground, Server,
+    config::{Config, IN_MEMORY},
+    fs::Fs,
+    service::listener::Incoming,
+};
 use tempfile::TempDir;
 use tokio::net::TcpListener;
 use tokio_util::sync::CancellationToken;
@@ -37,6 +42,27 @@ pub struct TestServer {
     running: Running,
     keys: Option<Keys>,
     tls: Option<TestTls>,
+}
+
+/// A program that is gone, and its folder.
+pub struct StoppedServer {
+    config: Config,
+    folder: TempDir,
+}
+
+impl StoppedServer {
+    /// Starts another on the same folder.
+    pub async fn start_again(self) -> TestServer {
+        let file = self.folder.path().join("frontalis.toml");
+        let started = tokio::task::spawn_blocking(move || ServerProgram::start(&file));
+        TestServer {
+            running: Running::Program(Box::new(started.await.unwrap())),
+            config: self.config,
+            folder: self.folder,
+            keys: None,
+            tls: None,
+        }
+    }
 }
 
 /// In this process, or a program of its own.
@@ -71,6 +97,40 @@ impl TestServer {
             keys: None,
             tls: None,
         }
+    }
+
+    /// Starts one that forgets everything but its takes, which it keeps here.
+    pub async fn start_on(files: Arc<dyn Fs>) -> Self {
+        let config = Config {
+            listen: SocketAddr::from(([127, 0, 0, 1], 0)),
+            data_dir: IN_MEMORY.to_owned(),
+            ..Config::default()
+        };
+        let listener = TcpListener::bind(config.listen).await.unwrap();
+        let address = listener.local_addr().unwrap();
+        let (ground, incoming) = (
+            Ground::with_takes_in(&config, files).unwrap(),
+            Incoming::Port(listener),
+        );
+        let shutdown = CancellationToken::new();
+        let run = frontalis_server::run_on;
+        let server = run(ground, config.clone(), incoming, address, shutdown.clone()).await;
+        let running = Running::Inside {
+            server: server.unwrap(),
+            shutdown,
+        };
+        Self {
+            config,
+            folder: tempfile::tempdir().unwrap(),
+            running,
+            keys: None,
+            tls: None,
+        }
+    }
+
+    /// Its data directory.
+    pub fn folder(&self) -> &Path {
+        self.folder.path()
     }
 
     /// Starts one that asks for tokens; the harness shows its own.
@@ -157,9 +217,9 @@ impl TestServer {
         }
     }
 
-    /// Its data directory.
-    pub fn folder(&self) -> &std::path::Path {
-        self.folder.path()
+    /// The server's data directory.
+    pub fn data_dir(&self) -> &std::path::Path {
+        self.config.data_dir.as_ref()
     }
 
     /// What the files with such names take on disk.
@@ -203,10 +263,16 @@ impl TestServer {
     }
 
     /// Drains the server and starts another on the same folder and the same port.
-    pub async fn restart(mut self) -> Self {
+    pub async fn restart(self) -> Self {
+        self.restart_after(|_| {}).await
+    }
+
+    /// The same, with something done to the folder in between.
+    pub async fn restart_after(mut self, change: impl FnOnce(&Path)) -> Self {
         let (address, mut config) = (self.address(), self.config.clone());
         let (keys, tls) = (self.keys.take(), self.tls.take());
         let folder = self.stop().await;
+        change(folder.path());
         config.listen = address;
         let running = spawn(&config).await;
         Self {
@@ -224,12 +290,22 @@ impl TestServer {
     ///
     /// When it is no program of its own.
     pub async fn kill_and_restart(self) -> Self {
+        self.kill_and_restart_after(|_| {}).await
+    }
+
+    /// The same, with something done to the folder in between.
+    ///
+    /// # Panics
+    ///
+    /// When it is no program of its own.
+    pub async fn kill_and_restart_after(self, change: impl FnOnce(&Path)) -> Self {
         let mut config = self.config.clone();
         config.listen = self.address();
         match self.running {
             Running::Program(program) => program.kill(),
             Running::Inside { .. } => panic!("this server is no program of its own"),
         }
+        change(self.folder.path());
         let file = self.folder.path().join("frontalis.toml");
         std::fs::write(&file, config.to_toml()).unwrap();
         let started = tokio::task::spawn_blocking(move || ServerProgram::start(&file));
@@ -245,6 +321,36 @@ impl TestServer {
     /// A client of its takes.
     pub async fn takes(&self) -> TakeServiceClient<TestChannel> {
         TakeServiceClient::new(self.channel().await)
+    }
+
+    /// Drains the program and waits until it is gone.
+    ///
+    /// # Panics
+    ///
+    /// When it is no program of its own, or something had to be cut.
+    pub async fn terminate(self) -> StoppedServer {
+        self.begin_drain();
+        let Running::Program(mut program) = self.running else {
+            panic!("this server is no program of its own");
+        };
+        assert!(program.wait().await, "the drain took longer than its grace");
+        StoppedServer {
+            config: self.config,
+            folder: self.folder,
+        }
+    }
+
+    /// Drains the program and waits for its exit code.
+    ///
+    /// # Panics
+    ///
+    /// When it is no program of its own.
+    pub async fn exit_code(self) -> Option<i32> {
+        self.begin_drain();
+        match self.running {
+            Running::Program(mut program) => program.exit_code().await,
+            Running::Inside { .. } => panic!("this server is no program of its own"),
+        }
     }
 
     /// What SIGTERM does, without waiting.

@@ -119,9 +119,14 @@ impl ServerProgram {
 
     /// Waits until it is gone; true: nothing had to be cut.
     pub async fn wait(&mut self) -> bool {
+        self.exit_code().await == Some(0)
+    }
+
+    /// Waits until it is gone; `None`: a signal ended it.
+    pub async fn exit_code(&mut self) -> Option<i32> {
         loop {
             if let Some(status) = self.child.try_wait().unwrap() {
-                return status.success();
+                return status.code();
             }
             tokio::time::sleep(Duration::from_millis(10)).await;
         }

@@ -119,7 +119,8 @@ impl<W: Write> CurveCsvWriter<W> {
     }
 }
 
-fn quality_name(quality: Option<Quality>) -> &'static str {
+/// `solved`, `partial`, `held`, or `unspecified` where it is not known.
+pub fn quality_name(quality: Option<Quality>) -> &'static str {
     match quality {
         Some(Quality::Solved) => "solved",
         Some(Quality::Partial) => "partial",
@@ -130,16 +131,20 @@ fn quality_name(quality: Option<Quality>) -> &'static str {
 
 /// A text as one field: quoted when it holds a separator, a quote or a line's end, and never a formula of a spreadsheet.
 pub fn field(text: &str) -> Cow<'_, str> {
-    let is_formula = text.starts_with(['=', '+', '-', '@', '\t', '\r', '\n']);
-    let inert = if is_formula {
-        Cow::Owned(format!("'{text}"))
-    } else {
-        Cow::Borrowed(text)
-    };
+    let inert = inert(text);
     if inert.contains([',', '"', '\n', '\r']) {
         Cow::Owned(format!("\"{}\"", inert.replace('"', "\"\"")))
     } else {
         inert
+    }
+}
+
+/// A text that no spreadsheet takes for a formula: an apostrophe before what looks like one (`BAD_INPUT` I13).
+pub fn inert(text: &str) -> Cow<'_, str> {
+    if text.starts_with(['=', '+', '-', '@', '\t', '\r', '\n']) {
+        Cow::Owned(format!("'{text}"))
+    } else {
+        Cow::Borrowed(text)
     }
 }
 

@@ -8,12 +8,13 @@
 mod error;
 mod header;
 mod rows;
+mod start_timecode;
 mod write;
 
 pub use error::{TrcError, TrcProblem};
 pub use write::{TrcHeading, TrcWriteError, TrcWriter, write};
 
-use crate::space::LengthUnit;
+use crate::{space::LengthUnit, timecode::Timecode};
 
 /// Longest line, bytes without its end: 1,024 markers with three numbers of a hundred characters each.
 pub const MAX_LINE_BYTES: usize = 1 << 20;
@@ -31,6 +32,8 @@ pub struct TrcTake {
     pub marker_names: Vec<String>,
     /// In row order.
     pub frames: Vec<TrcFrame>,
+    /// The first row's timecode, without sub-frame and user bits, where Frontalis wrote the file.
+    pub start_timecode: Option<Timecode>,
 }
 
 /// One row of a take.
@@ -74,6 +77,7 @@ pub fn parse(bytes: &[u8]) -> Result<TrcTake, TrcError> {
         unit: header.unit,
         marker_names: header.marker_names,
         frames,
+        start_timecode: header.start_timecode,
     })
 }
 

@@ -22,7 +22,12 @@ use super::{
     settings::{MarkerSettings, RegionMode},
     still_problem::{StillProblem, fix},
 };
-use crate::{curve::HeldReason, face::actor::Actor, space::PerformancePoint};
+use crate::{
+    curve::HeldReason,
+    face::actor::Actor,
+    numeric::tape::{Tape, TapeError},
+    space::PerformancePoint,
+};
 
 /// An unobserved muscle decays by 1/e in this time.
 const UNOBSERVED_DECAY_SECS: f64 = 0.2;
@@ -50,6 +55,7 @@ pub struct RegionOutcome {
 #[derive(Clone, Debug)]
 pub struct ContractionSolver {
     model: MarkerModel,
+    n_actor_markers: usize,
     /// s R and t of `model_from_performance`.
     linear_part: Matrix3<f64>,
     translation_cm: Vector3<f64>,
@@ -104,6 +110,7 @@ impl ContractionSolver {
         let boxes = boxes(&model, actor, settings);
         let similarity = &alignment.model_from_performance;
         Self {
+            n_actor_markers: actor.markers().len(),
             linear_part: similarity.rotation.to_rotation_matrix().into_inner() * similarity.scale,
             translation_cm: similarity.translation_cm,
             region_mode: settings.region_mode,
@@ -155,6 +162,38 @@ impl ContractionSolver {
     pub fn continue_realigned(&mut self, before: &Self) {
         self.continue_from(before);
         self.frames_since_pose = None;
+    }
+
+    /// Names what a frame finds of those before it; what is read belongs to the same actor, alignment, settings and rate.
+    pub(crate) fn lasts(&mut self, tape: &mut Tape) -> Result<(), TapeError> {
+        self.evidence_lasts(tape)?;
+        tape.reals("x", &mut self.x)?;
+        tape.reals("rotation", self.motion.rotation.as_mut_slice())?;
+        tape.reals("translation", self.motion.translation.as_mut_slice())?;
+        tape.maybe_integer("frames_since_pose", &mut self.frames_since_pose)?;
+        tape.within("joint", |tape| self.joint.qp.lasts(tape))?;
+        tape.within("still", |tape| self.still.lasts(tape))?;
+        if let Some(estimated) = &mut self.estimated {
+            tape.within("estimated", |tape| estimated.lasts(tape))?;
+        } else {
+            let uncertainty = &mut self.plain_uncertainty;
+            tape.within("uncertainty", |tape| uncertainty.lasts(tape))?;
+        }
+        let n_markers = self.n_actor_markers;
+        let diagnosis = &mut self.diagnosis;
+        tape.within("diagnosis", |tape| diagnosis.lasts(tape, n_markers))
+    }
+
+    /// The visibility that all sums belong to.
+    fn evidence_lasts(&mut self, tape: &mut Tape) -> Result<(), TapeError> {
+        let shown = self.evidence.iter().flat_map(|it| &it.visible);
+        let mut shown: Vec<bool> = shown.copied().collect();
+        tape.flags("visible", &mut shown)?;
+        if tape.is_read() {
+            self.visible = shown;
+            self.evidence = Some(self.current_evidence());
+        }
+        Ok(())
     }
 
     /// The declared rate of the capture, when a new publisher declares another.

@@ -11,7 +11,14 @@ use super::{
     neutral_watch::{NeutralDoubt, NeutralWatch},
     range::{Looked, MuscleRange, RangeTracker},
 };
-use crate::{face::actor::Actor, numeric::factor::Factor, space::PerformancePoint};
+use crate::{
+    face::actor::Actor,
+    numeric::{
+        factor::Factor,
+        tape::{Tape, TapeError},
+    },
+    space::PerformancePoint,
+};
 
 /// Frames that are looked at a second.
 const LOOKS_PER_SEC: f64 = 30.0;
@@ -70,6 +77,12 @@ impl Diagnosis {
     /// The declared rate of the capture.
     pub fn set_rate_hz(&mut self, rate_hz: f64) {
         self.every = every(rate_hz);
+    }
+
+    /// Names what curves may yet depend on: the quietest frames, and which frames are looked at. Ranges begin anew.
+    pub fn lasts(&mut self, tape: &mut Tape, n_markers: usize) -> Result<(), TapeError> {
+        tape.integer("n_frames", &mut self.n_frames)?;
+        self.watch.lasts(tape, n_markers)
     }
 
     /// Counts a frame; whether it is to be looked at.

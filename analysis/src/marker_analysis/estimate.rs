@@ -27,6 +27,7 @@ use crate::{
     numeric::{
         box_qp::{BoxQp, BoxQpError, Report},
         posterior::Posterior,
+        tape::{Tape, TapeError},
     },
 };
 use coupling::Coupling;
@@ -171,6 +172,17 @@ impl Estimator {
         if let (Some(prior), Some(before)) = (&mut self.prior, &before.prior) {
             prior.continue_from(before);
         }
+    }
+
+    /// Names what a frame finds of those before it.
+    pub fn lasts(&mut self, tape: &mut Tape) -> Result<(), TapeError> {
+        tape.within("qp", |tape| self.qp.lasts(tape))?;
+        tape.within("noise", |tape| self.noise.lasts(tape))?;
+        tape.within("mirrors", |tape| self.mirrors.lasts(tape))?;
+        if let Some(prior) = &mut self.prior {
+            tape.within("prior", |tape| prior.lasts(tape))?;
+        }
+        tape.reals("standard_errors", &mut self.standard_errors)
     }
 
     /// What was known before a gap is not known any more.

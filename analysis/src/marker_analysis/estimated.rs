@@ -11,7 +11,10 @@ use super::{
 };
 use crate::{
     face::muscle::MuscleSet,
-    numeric::box_qp::{BoxQpError, Report},
+    numeric::{
+        box_qp::{BoxQpError, Report},
+        tape::{Tape, TapeError},
+    },
 };
 
 /// The estimators of one session.
@@ -72,6 +75,16 @@ impl Estimated {
                 apart.whole_x.clone_from(&before.whole_x);
             }
         }
+    }
+
+    /// Names what a frame finds of those before it.
+    pub fn lasts(&mut self, tape: &mut Tape) -> Result<(), TapeError> {
+        tape.within("whole", |tape| self.whole.lasts(tape))?;
+        if let Some(apart) = &mut self.apart {
+            tape.within("apart", |tape| apart.estimator.lasts(tape))?;
+            tape.reals("whole_x", &mut apart.whole_x)?;
+        }
+        Ok(())
     }
 
     /// The declared rate of the capture.

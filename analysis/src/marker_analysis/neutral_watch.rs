@@ -5,11 +5,12 @@
 
 use nalgebra::Vector3;
 
-use super::{head_motion::RIDGE, neutral::Neutral};
+use super::{head_motion::RIDGE, neutral::Neutral, positions_on_tape};
 use crate::{
     face::{actor::Actor, basis::MarkerBasis},
     numeric::box_qp::BoxQp,
     numeric::similarity_fit::{Scale, fit},
+    numeric::tape::{Tape, TapeError},
     space::PerformancePoint,
 };
 
@@ -94,6 +95,24 @@ impl NeutralWatch {
             *loudest_cm = residual_cm;
             kept.copy_from_slice(positions);
         }
+    }
+
+    /// Names the frames that are kept.
+    pub fn lasts(&mut self, tape: &mut Tape, n_markers: usize) -> Result<(), TapeError> {
+        let mut n_kept = self.quietest.len() as u64;
+        tape.integer("n_kept", &mut n_kept)?;
+        if n_kept > self.capacity as u64 {
+            return Err(tape.wrong("n_kept"));
+        }
+        if tape.is_read() {
+            let nothing = (0.0, vec![None; n_markers]);
+            self.quietest = (0..n_kept).map(|_| nothing.clone()).collect();
+        }
+        for (residual_cm, positions) in &mut self.quietest {
+            tape.real("residual_cm", residual_cm)?;
+            positions_on_tape::last(positions, tape)?;
+        }
+        Ok(())
     }
 
     /// The `n` quietest frames, fewer when not as many were seen.

@@ -7,6 +7,8 @@
 
 use nalgebra::Vector3;
 
+use crate::numeric::tape::{Tape, TapeError};
+
 /// Standard deviation of a coordinate before anything was seen, centimeters.
 const START_CM: f64 = 0.02;
 
@@ -62,6 +64,11 @@ impl Level {
         n_frames: 0,
     };
 
+    fn lasts(&mut self, tape: &mut Tape) -> Result<(), TapeError> {
+        tape.real("variance", &mut self.variance)?;
+        tape.small("n_frames", &mut self.n_frames)
+    }
+
     fn observe(&mut self, squares: f64, freedom: f64, rate_hz: f64) {
         let share = if self.n_frames < FIRST_FRAMES {
             FIRST_SHARE
@@ -86,6 +93,25 @@ impl Noise {
     /// Takes over the levels of the session's noise; what single markers left is not comparable any more.
     pub fn continue_from(&mut self, before: &Self) {
         (self.scatter, self.change) = (before.scatter, before.change);
+    }
+
+    /// Names what a frame finds of those before it.
+    pub fn lasts(&mut self, tape: &mut Tape) -> Result<(), TapeError> {
+        tape.within("scatter", |tape| self.scatter.lasts(tape))?;
+        tape.within("change", |tape| self.change.lasts(tape))?;
+        let mut had_weight: Vec<bool> = self.before.iter().map(Option::is_some).collect();
+        let mut left: Vec<f64> = self
+            .before
+            .iter()
+            .flat_map(|it| <[f64; 3]>::from(it.unwrap_or_default()))
+            .collect();
+        tape.flags("had_weight", &mut had_weight)?;
+        tape.reals("left", &mut left)?;
+        let (left, _) = left.as_chunks::<3>();
+        for ((it, left), had_weight) in self.before.iter_mut().zip(left).zip(had_weight) {
+            *it = had_weight.then_some((*left).into());
+        }
+        Ok(())
     }
 
     /// Standard deviation of a coordinate about what the basis explains, centimeters.

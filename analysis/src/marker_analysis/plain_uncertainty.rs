@@ -12,7 +12,11 @@ use super::{
     reproduction::Reproduction,
     settings::RegionMode,
 };
-use crate::numeric::{box_qp::BoxQp, posterior::Posterior};
+use crate::numeric::{
+    box_qp::BoxQp,
+    posterior::Posterior,
+    tape::{Tape, TapeError},
+};
 
 /// Standard errors of one session's plain solutions.
 #[derive(Clone, Debug)]
@@ -74,6 +78,13 @@ impl PlainUncertainty {
     /// Noise of a coordinate of a marker, centimeters.
     pub fn sigma_cm(&self) -> f64 {
         self.noise.sigma_cm()
+    }
+
+    /// Names what a frame finds of those before it. What was found of a visibility is found anew, with the same bits.
+    pub fn lasts(&mut self, tape: &mut Tape) -> Result<(), TapeError> {
+        tape.within("noise", |tape| self.noise.lasts(tape))?;
+        tape.reals("variances", &mut self.variances)?;
+        tape.reals("standard_errors", &mut self.standard_errors)
     }
 
     /// Takes in one frame.

@@ -13,7 +13,12 @@ use super::{
     marker_model::MarkerModel,
     settings::RegionMode,
 };
-use crate::numeric::{box_qp::BoxQp, projection::Projection, standing_qp::StandingQp};
+use crate::numeric::{
+    box_qp::BoxQp,
+    projection::Projection,
+    standing_qp::StandingQp,
+    tape::{Tape, TapeError},
+};
 
 /// Muscles that are solved together from the markers that observe them.
 #[derive(Clone, Debug)]
@@ -74,6 +79,19 @@ impl StillProblem {
             }
         }
         self.displacements.fill(0.0);
+    }
+
+    /// Names what a frame finds of those before it; the evidence is set before it is read.
+    pub fn lasts(&mut self, tape: &mut Tape) -> Result<(), TapeError> {
+        for block in &mut self.blocks {
+            let part = match block.region {
+                None => "whole",
+                Some(0) => "upper",
+                Some(_) => "lower",
+            };
+            tape.within(part, |tape| block.qp.lasts(tape))?;
+        }
+        Ok(())
     }
 
     /// Solves for `x`, warm, from the markers at `positions`.

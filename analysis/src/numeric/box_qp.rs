@@ -10,6 +10,7 @@
 use super::{
     factor::Factor,
     lanes::{padded, subtract_multiple},
+    tape::{Tape, TapeError},
 };
 
 /// How far, relative to the largest diagonal entry of Q, a multiplier may have the wrong sign in a solution.
@@ -299,6 +300,28 @@ impl BoxQp {
                 self.free.push(i);
             }
         }
+    }
+
+    /// Names what a solve finds of those before it. Q and the bounds are the caller's.
+    pub(crate) fn lasts(&mut self, tape: &mut Tape) -> Result<(), TapeError> {
+        tape.places("free", &mut self.free, self.m)?;
+        tape.reals("side", &mut self.side)?;
+        tape.reals("is_free", &mut self.is_free)?;
+        tape.reals("solution", &mut self.solution)?;
+        tape.flag("is_settled", &mut self.is_settled)?;
+        if tape.is_read() {
+            self.is_listed.fill(false);
+            for &i in &self.free {
+                self.is_listed[i] = true;
+            }
+            let unknowns = self.solution.iter().zip(&self.is_free).enumerate();
+            let is_offset = |(x, is_free): (&f64, &f64)| *is_free <= 0.0 && *x != 0.0;
+            let offset = unknowns.filter(|(_, it)| is_offset(*it)).map(|(i, _)| i);
+            self.offset.clear();
+            self.offset.extend(offset);
+            self.factored.clear();
+        }
+        Ok(())
     }
 
     /// Minimizes over the free unknowns alone, the others at their bounds; the result is `target`.

@@ -7,6 +7,7 @@
 use super::{
     box_qp::{BoxQp, BoxQpError, Report},
     pivots::{self, Exchanges},
+    tape::{Tape, TapeError},
 };
 
 /// Solves with the same Q before its inverse is computed, which takes as long as several of them.
@@ -102,13 +103,28 @@ impl StandingQp {
     pub fn start(&mut self) {
         self.solves = self.solves.saturating_add(1);
         if self.solves == SOLVES_BEFORE_INVERSE {
-            let (stride, hessian) = (self.general.stride(), self.general.hessian());
-            let exchanges = self.exchanges.as_mut();
-            self.inverted = exchanges.is_some_and(|it| it.set_hessian(stride, hessian));
+            self.invert();
         }
         if let Some(exchanges) = usable(&mut self.exchanges, self.inverted, self.fixed) {
             exchanges.start(&self.c);
         }
+    }
+
+    fn invert(&mut self) {
+        let (stride, hessian) = (self.general.stride(), self.general.hessian());
+        let exchanges = self.exchanges.as_mut();
+        self.inverted = exchanges.is_some_and(|it| it.set_hessian(stride, hessian));
+    }
+
+    /// Names what a solve finds of those before it. Q, which is set before this is read, and the bounds are the caller's.
+    pub(crate) fn lasts(&mut self, tape: &mut Tape) -> Result<(), TapeError> {
+        let mut solves = self.solves as u64;
+        tape.integer("solves", &mut solves)?;
+        self.solves = usize::try_from(solves).unwrap_or(usize::MAX);
+        if tape.is_read() && self.solves >= SOLVES_BEFORE_INVERSE {
+            self.invert();
+        }
+        self.general.lasts(tape)
     }
 
     /// Goes one step on; false when the solve is ready to be finished.

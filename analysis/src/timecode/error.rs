@@ -51,6 +51,12 @@ pub enum TimecodeError {
         /// As written, escaped.
         found: String,
     },
+    /// Not the form of a rate.
+    #[error("not a rate: {found}; frames and seconds are expected, as 30000/1001")]
+    RateForm {
+        /// As written, escaped.
+        found: String,
+    },
     /// `;` at a rate that drops nothing, or `:` at one that does.
     #[error("{found} is written with `{mark}` before the frames; at this rate `{expected}` is")]
     Mark {

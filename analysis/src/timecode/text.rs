@@ -15,7 +15,35 @@ impl TimecodeRate {
     }
 }
 
+impl fmt::Display for TimecodeRate {
+    /// `30000/1001`; how labels are counted is said by the mark in the label.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}/{}", self.numerator(), self.denominator())
+    }
+}
+
 impl Timecode {
+    /// Reads a label whose mark says how its rate is counted, and the rate as [`TimecodeRate`] prints it.
+    ///
+    /// # Errors
+    ///
+    /// The form of either, the rate, or the label itself.
+    pub fn parse_at(text: &str, rate: &str) -> Result<Self, TimecodeError> {
+        let counting = if text.contains(';') {
+            Counting::Drop
+        } else {
+            Counting::NonDrop
+        };
+        let fraction = || {
+            let (numerator, denominator) = rate.split_once('/')?;
+            Some((numerator.parse().ok()?, denominator.parse().ok()?))
+        };
+        let (numerator, denominator) = fraction().ok_or_else(|| TimecodeError::RateForm {
+            found: quoted(rate),
+        })?;
+        Self::parse(text, TimecodeRate::new(numerator, denominator, counting)?)
+    }
+
     /// Reads what [`Timecode`] prints.
     ///
     /// # Errors

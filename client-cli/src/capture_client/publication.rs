@@ -9,7 +9,7 @@ use tokio::{
 use tokio_stream::wrappers::ReceiverStream;
 use tonic::{Code, Streaming};
 
-use super::{CaptureSettings, shared::Shared};
+use super::{CaptureSettings, clock_echo::Echoes, shared::Shared};
 use crate::{
     backoff::Backoff,
     connection::Channel,
@@ -90,15 +90,22 @@ pub(super) struct Publication {
     channel: Channel,
     settings: CaptureSettings,
     backoff: Backoff,
+    echoes: Echoes,
 }
 
 impl Publication {
-    pub fn new(shared: Arc<Shared>, channel: Channel, settings: CaptureSettings) -> Self {
+    pub fn new(
+        shared: Arc<Shared>,
+        channel: Channel,
+        settings: CaptureSettings,
+        echoes: Echoes,
+    ) -> Self {
         Self {
             shared,
             channel,
             settings,
             backoff: Backoff::new(Backoff::process_seed()),
+            echoes,
         }
     }
 
@@ -199,12 +206,13 @@ impl Publication {
                 response = responses.message() => match response? {
                     Some(response) => {
                         self.backoff.reset();
+                        self.echoes.received(&response);
                         self.shared.take_response(response);
                     }
                     None if is_half_closed => return Ok(self.closed()),
                     None => return Err(closed_early()),
                 },
-                sent = send_batch(&self.shared, requests.as_ref()), if has_unsent && requests.is_some() => {
+                sent = send_batch(&self.shared, &mut self.echoes, requests.as_ref()), if has_unsent && requests.is_some() => {
                     keep_alive.reset();
                     if sent.is_err() {
                         // The transport is gone; the responses say why.
@@ -215,7 +223,10 @@ impl Publication {
                 _ = keep_alive.tick() => {
                     if let Some(requests) = &requests {
                         // A full queue is traffic enough.
-                        drop(requests.try_send(PublishMarkersRequest::default()));
+                        drop(requests.try_send(PublishMarkersRequest {
+                            clock: self.echoes.take(),
+                            ..PublishMarkersRequest::default()
+                        }));
                     }
                 }
             }
@@ -250,6 +261,7 @@ struct TransportGone;
 /// Waits for the transport, then hands it the frames that are there by then.
 async fn send_batch(
     shared: &Shared,
+    echoes: &mut Echoes,
     requests: Option<&mpsc::Sender<PublishMarkersRequest>>,
 ) -> Result<(), TransportGone> {
     let permit = match requests {
@@ -267,6 +279,7 @@ async fn send_batch(
     };
     permit.send(PublishMarkersRequest {
         frames,
+        clock: echoes.take(),
         ..PublishMarkersRequest::default()
     });
     Ok(())

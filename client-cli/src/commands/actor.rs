@@ -80,7 +80,7 @@ pub struct DeleteArgs {
     /// Do not ask; needed without a terminal
     #[arg(long, short)]
     yes: bool,
-    /// Erase its takes too
+    /// Erase everything of this person: its ended sessions and its takes too, and print a receipt
     #[arg(long)]
     with_takes: bool,
 }
@@ -213,7 +213,12 @@ fn written(context: &Context, out: &std::path::Path, n_bytes: usize) -> anyhow::
 }
 
 async fn delete(context: &Context, args: &DeleteArgs) -> anyhow::Result<ExitCode> {
-    let question = format!("Erase the actor {} with all its revisions?", args.id);
+    let what = if args.with_takes {
+        "all its revisions, sessions and takes"
+    } else {
+        "all its revisions"
+    };
+    let question = format!("Erase the actor {} with {what}?", args.id);
     if !args.yes && !terminal::is_interactive() {
         bail!("nobody can be asked without a terminal, nothing was erased: give --yes");
     }
@@ -225,15 +230,34 @@ async fn delete(context: &Context, args: &DeleteArgs) -> anyhow::Result<ExitCode
         name: actor_name(&args.id),
         with_takes: args.with_takes,
     };
-    ActorServiceClient::new(context.connect().await?)
+    let answer = ActorServiceClient::new(context.connect().await?)
         .delete_actor(request)
         .await
         .map_err(ClientError::from)
         .with_context(|| format!("cannot erase actor {}", args.id))?;
-    if context.json {
-        say(serde_json::json!({ "deleted": actor_name(&args.id) }))?;
-    } else {
-        say(format_args!("erased {}", args.id))?;
+    match answer.into_inner().receipt {
+        Some(receipt) => say_receipt(context, &receipt)?,
+        None if context.json => say(serde_json::json!({ "deleted": actor_name(&args.id) }))?,
+        None => say(format_args!("erased {}", args.id))?,
     }
     Ok(ExitCode::SUCCESS)
+}
+
+fn say_receipt(context: &Context, receipt: &proto::ErasureReceipt) -> anyhow::Result<()> {
+    if context.json {
+        let name = &receipt.actor;
+        say(serde_json::json!({ "deleted": name, "receipt": receipt }))?;
+        return Ok(());
+    }
+    let time = receipt.erase_time.map(|it| it.to_rfc3339());
+    say(format_args!(
+        "erased {} at {}: {} revisions, {} sessions, {} takes, {} bytes; nothing of them is left in the server's data directory but these ids in its audit log",
+        short_id(&receipt.actor),
+        time.unwrap_or_default(),
+        receipt.n_revisions,
+        receipt.n_sessions,
+        receipt.n_takes,
+        receipt.n_bytes,
+    ))?;
+    Ok(())
 }

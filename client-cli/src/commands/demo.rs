@@ -31,7 +31,7 @@ use super::{
     Context, actor, actor_name,
     interrupt::Interrupt,
     numbers, session_name,
-    stage_run::{self, StageRun},
+    stage_run::{self, StageClock, StageRun},
 };
 
 const ACTOR: &str = "reference";
@@ -268,9 +268,17 @@ async fn publish(
     stop: CancellationToken,
     scoreboard: Arc<Scoreboard>,
 ) -> (StageRun, Published) {
-    let run = stage_run::run(&publication, stage, rate_hz, stop.cancelled(), |frame| {
-        scoreboard.published(frame);
-    })
+    let clock = StageClock::default();
+    let run = stage_run::run(
+        &publication,
+        &clock,
+        stage,
+        rate_hz,
+        stop.cancelled(),
+        |frame| {
+            scoreboard.published(frame);
+        },
+    )
     .await;
     (run, publication.finish().await)
 }

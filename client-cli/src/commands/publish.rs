@@ -1,4 +1,4 @@
-//! `frontalis publish TAKE.trc --session ID`.
+//! `frontalis publish TAKE --session ID`.
 
 use std::{
     path::{Path, PathBuf},
@@ -8,7 +8,7 @@ use std::{
 
 use anyhow::Context as _;
 use clap::Args;
-use frontalis_analysis::format::trc::TrcTake;
+use frontalis_analysis::{format::trc::TrcTake, space::LengthUnit};
 use frontalis_client::{
     capture_client::{CaptureClient, CaptureSettings},
     proto::Ingest,
@@ -22,20 +22,22 @@ use super::{
     marker_check::MarkerCheck,
     names::{default_publisher, session_name},
     publish_summary,
+    unit::Unit,
 };
 use crate::terminal::progress;
 
-/// Publish a TRC file into a session
+/// Publish a TRC or C3D file into a session
 #[derive(Debug, Args)]
 #[command(
-    after_help = "Frames keep the file's numbers, times and unit. The publisher reconnects and resumes by itself.
+    after_help = "Frames keep the file's numbers, times, unit and timecode; what was not seen is sent as not seen. The publisher reconnects and resumes by itself.
 
 Examples:
   frontalis publish take.trc --session take-1          in real time, by the file's rate
-  frontalis publish take.trc --session take-1 --fast   every frame, as fast as the server takes them"
+  frontalis publish take.trc --session take-1 --fast   every frame, as fast as the server takes them
+  frontalis publish walk.c3d --session take-1 --unit mm"
 )]
 pub struct PublishArgs {
-    /// The file
+    /// The file, TRC or C3D
     take: PathBuf,
     /// The session
     #[arg(long, value_name = "ID")]
@@ -52,13 +54,17 @@ pub struct PublishArgs {
     /// Number the frames on from the session's last one; the file's numbers travel as source frames
     #[arg(long)]
     renumber: bool,
+    /// Unit of a C3D that states none
+    #[arg(long, value_enum, value_name = "UNIT")]
+    unit: Option<Unit>,
 }
 
 pub async fn run(context: &Context, args: PublishArgs) -> anyhow::Result<ExitCode> {
+    let unit = args.unit.map(LengthUnit::from);
     let take = if args.renumber {
-        take_file::read_any_numbers(&args.take)?
+        take_file::read_any_numbers(&args.take, unit)?
     } else {
-        take_file::read(&args.take)?
+        take_file::read(&args.take, unit)?
     };
     let settings = CaptureSettings {
         session: session_name(&args.session),
@@ -108,7 +114,7 @@ async fn send(client: &CaptureClient, take: &TrcTake, args: &PublishArgs) -> any
     let bar = progress::frames(take.frames.len() as u64, "publishing");
     let begun = Instant::now();
     for (index, frame) in take.frames.iter().enumerate() {
-        let mut message = wire_frame(frame);
+        let mut message = wire_frame(take, frame);
         if let Some(first) = first_number {
             message.source_frame = message.number;
             message.number = first + index as u64;

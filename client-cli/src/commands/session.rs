@@ -6,7 +6,7 @@ use anyhow::Context as _;
 use clap::{Args, Subcommand};
 use frontalis_client::{connection::Channel, error::ClientError, proto};
 use frontalis_proto::FieldMask;
-use proto::session_service_client::SessionServiceClient;
+use proto::{session_service_client::SessionServiceClient, take_service_client::TakeServiceClient};
 
 use super::{Context, actor_name, names::new_session_id, session_name, settings::SettingsArgs};
 use crate::terminal::{say, tables};
@@ -33,6 +33,7 @@ pub enum SessionCommand {
 #[derive(Debug, Args)]
 #[command(after_help = "Examples:
   frontalis session create --actor anna --id take-1
+  frontalis session create --actor anna --record --slate 12A
   frontalis session create --actor anna --neutral-frames 1 --regions split --plain   as in the paper")]
 pub struct CreateArgs {
     /// Whose capture it is
@@ -44,8 +45,34 @@ pub struct CreateArgs {
     /// Name for people
     #[arg(long, value_name = "NAME")]
     display_name: Option<String>,
+    /// Record it from its first frame on
+    #[arg(long)]
+    record: bool,
+    /// Slate of the recording
+    #[arg(long, requires = "record")]
+    slate: Option<String>,
+    /// Number of the recording on its slate [default: the next one]
+    #[arg(long, value_name = "N", requires = "record", value_parser = clap::value_parser!(u32).range(1..))]
+    take: Option<u32>,
+    /// What the recording, a training take, shows
+    #[arg(long, value_name = "LABEL", requires = "record")]
+    gesture: Option<String>,
     #[command(flatten)]
     settings: SettingsArgs,
+}
+
+impl CreateArgs {
+    /// The recording that is started at once, because something is said of it; else the server starts one with the first
+    /// frame.
+    fn labeled_take(&self) -> Option<proto::StartTakeRequest> {
+        let is_labeled = self.slate.is_some() || self.take.is_some() || self.gesture.is_some();
+        is_labeled.then(|| proto::StartTakeRequest {
+            slate: self.slate.clone().unwrap_or_default(),
+            number: self.take.unwrap_or_default(),
+            gesture: self.gesture.clone().unwrap_or_default(),
+            ..proto::StartTakeRequest::default()
+        })
+    }
 }
 
 #[derive(Debug, Args)]
@@ -94,7 +121,16 @@ pub async fn run(context: &Context, command: SessionCommand) -> anyhow::Result<E
             list(context, &mut client).await?;
             return Ok(ExitCode::SUCCESS);
         }
-        SessionCommand::Create(args) => create(&mut client, args).await,
+        SessionCommand::Create(args) => {
+            let take = args.labeled_take();
+            let session = create(&mut client, args).await.context(what)?;
+            let session = session.unwrap_or_default();
+            if let Some(take) = take {
+                start_take(context, &session, take).await?;
+            }
+            print(context, &session)?;
+            return Ok(ExitCode::SUCCESS);
+        }
         SessionCommand::Show(args) => show(&mut client, args).await,
         SessionCommand::Update(args) => {
             let update_mask = args.settings.update_mask()?;
@@ -123,6 +159,27 @@ impl SessionCommand {
 
 type Client = SessionServiceClient<Channel>;
 
+/// A session is recorded as a take of this slate, number and gesture.
+async fn start_take(
+    context: &Context,
+    session: &proto::Session,
+    take: proto::StartTakeRequest,
+) -> anyhow::Result<()> {
+    let mut client = TakeServiceClient::new(context.connect().await?);
+    let request = proto::StartTakeRequest {
+        session: session.name.clone(),
+        ..take
+    };
+    let started = client.start_take(request).await;
+    started.map_err(ClientError::from).with_context(|| {
+        format!(
+            "session {} is there, but it is not recorded",
+            super::short_id(&session.name)
+        )
+    })?;
+    Ok(())
+}
+
 async fn create(
     client: &mut Client,
     args: CreateArgs,
@@ -130,7 +187,10 @@ async fn create(
     let mut request = proto::CreateSessionRequest {
         session_id: args.id.unwrap_or_default(),
         actor: actor_name(&args.actor),
-        settings: Some(args.settings.to_proto()),
+        settings: Some(proto::SessionSettings {
+            record: args.record.then_some(true),
+            ..args.settings.to_proto()
+        }),
         display_name: args.display_name.unwrap_or_default(),
         ..proto::CreateSessionRequest::default()
     };

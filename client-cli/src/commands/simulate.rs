@@ -12,14 +12,16 @@ use anyhow::Context as _;
 use clap::Args;
 use frontalis_analysis::{
     face::actor::{Actor, RankPolicy},
-    format::trc::{self, TrcFrame, TrcTake},
+    format::{
+        curve_csv::field,
+        trc::{self, TrcFrame, TrcTake},
+    },
     space::LengthUnit,
     synthesis::reference_face,
 };
 use frontalis_client::{
     capture_client::{CaptureClient, CaptureSettings},
     connection::Channel,
-    csv::field,
     simulated_stage::{SimulatedStage, StageFrame, StageSettings},
 };
 
@@ -27,7 +29,8 @@ use super::{
     Context, actor,
     interrupt::Interrupt,
     names::{default_publisher, session_name},
-    numbers, publish_summary, stage_run,
+    numbers, publish_summary,
+    stage_run::{self, StageClock},
 };
 use crate::terminal::{progress, say};
 
@@ -110,14 +113,22 @@ pub async fn run(context: &Context, args: SimulateArgs) -> anyhow::Result<ExitCo
         takeover: args.takeover,
         ..settings
     };
-    let client = CaptureClient::start(channel, settings)
+    let clock = StageClock::default();
+    let client = CaptureClient::start_on_clock(channel, settings, Some(clock.capture_clock()))
         .await
         .with_context(|| format!("the session {} was not opened for publishing", args.session))?;
     let bar = progress::frames(stage.remaining_frames(), "simulating");
-    let run = stage_run::run(&client, stage, args.rate, interrupt.wait(), |frame| {
-        bar.inc(1);
-        recording.take(frame);
-    })
+    let run = stage_run::run(
+        &client,
+        &clock,
+        stage,
+        args.rate,
+        interrupt.wait(),
+        |frame| {
+            bar.inc(1);
+            recording.take(frame);
+        },
+    )
     .await;
     bar.finish_and_clear();
     let published = client.finish().await;
@@ -204,6 +215,7 @@ impl Recording {
                 unit: LengthUnit::Centimeter,
                 marker_names: actor.markers().iter().map(|it| it.name.clone()).collect(),
                 frames: self.frames,
+                start_timecode: None,
             };
             let name = path.file_name().unwrap_or_default().to_string_lossy();
             std::fs::write(path, trc::write(&take, &name))

@@ -1,4 +1,4 @@
-//! `frontalis solve TAKE.trc --actor PACKAGE`: the same analysis without a server.
+//! `frontalis solve TAKE --actor PACKAGE`: the same analysis without a server.
 
 use std::{
     fs,
@@ -13,9 +13,11 @@ use clap::Args;
 use frontalis_analysis::{
     curve::Quality,
     face::actor::{Actor, RankPolicy},
+    format::curve_csv::CurveCsvWriter,
+    space::LengthUnit,
 };
 use frontalis_client::{
-    csv::{Columns, CsvRow, CsvWriter},
+    csv::{self, CsvRow},
     curve_client::CurveEvent,
     error::advice_on,
     proto,
@@ -23,13 +25,15 @@ use frontalis_client::{
     take_file,
 };
 
-use super::{Context, actor, marker_check::MarkerCheck, settings::AnalysisArgs, solve_report};
+use super::{
+    Context, actor, marker_check::MarkerCheck, settings::AnalysisArgs, solve_report, unit::Unit,
+};
 use crate::{
     json,
     terminal::{progress, say},
 };
 
-/// Solve a TRC file without a server, as a session would
+/// Solve a TRC or C3D file without a server, as a session would
 #[expect(
     clippy::struct_excessive_bools,
     reason = "each is one flag that a person types"
@@ -44,7 +48,7 @@ Examples:
   frontalis solve take.trc --actor anna.zip --plain --csv > plain.csv  the paper's least squares alone"
 )]
 pub struct SolveArgs {
-    /// The file
+    /// The file, TRC or C3D
     take: PathBuf,
     /// The actor's package, .zip or .glb
     #[arg(long, value_name = "PACKAGE")]
@@ -61,6 +65,9 @@ pub struct SolveArgs {
     /// Number the frames from 1, as `publish --renumber` does in a new session
     #[arg(long)]
     renumber: bool,
+    /// Unit of a C3D that states none
+    #[arg(long, value_enum, value_name = "UNIT")]
+    unit: Option<Unit>,
     #[command(flatten)]
     settings: AnalysisArgs,
 }
@@ -69,10 +76,11 @@ pub fn run(context: &Context, args: &SolveArgs) -> anyhow::Result<ExitCode> {
     if args.standard_errors && !args.csv && !context.json {
         bail!("--standard-errors needs --csv or --json");
     }
+    let unit = args.unit.map(LengthUnit::from);
     let take = if args.renumber {
-        take_file::read_renumbered(&args.take)?
+        take_file::read_renumbered(&args.take, unit)?
     } else {
-        take_file::read(&args.take)?
+        take_file::read(&args.take, unit)?
     };
     let package = fs::read(&args.actor)
         .with_context(|| format!("cannot read the package {}", args.actor.display()))?;
@@ -95,11 +103,10 @@ pub fn run(context: &Context, args: &SolveArgs) -> anyhow::Result<ExitCode> {
     if solved.samples.is_empty() {
         bail!("{} gave no sample", args.take.display());
     }
-    let columns = Columns::wanted(args.standard_errors);
     if args.csv {
-        write_csv(&actor, &solved, columns)?;
+        write_csv(&actor, &solved, args.standard_errors)?;
     } else if context.json {
-        write_json(&actor, &solved, columns)?;
+        write_json(&actor, &solved, args.standard_errors)?;
     } else {
         say(solve_report::summary(&solved, take.frames.len()))?;
     }
@@ -138,17 +145,18 @@ fn muscle_names(actor: &Actor) -> impl Iterator<Item = &str> + Clone {
         .map(|it| it.name.as_str())
 }
 
-fn write_csv(actor: &Actor, solved: &Solved, columns: Columns) -> io::Result<()> {
+fn write_csv(actor: &Actor, solved: &Solved, standard_errors: bool) -> io::Result<()> {
     let out = BufWriter::new(io::stdout().lock());
-    let mut writer = CsvWriter::new(out, muscle_names(actor), columns)?;
+    let columns = csv::columns(standard_errors);
+    let mut writer = CurveCsvWriter::new(out, muscle_names(actor), columns)?;
     for sample in &solved.samples {
-        writer.write(&CsvRow::from(sample))?;
+        writer.write_row(&CsvRow::from(sample).as_row())?;
     }
     writer.flush()
 }
 
 /// One JSON object a sample, after one that names the controls: the messages of a subscription.
-fn write_json(actor: &Actor, solved: &Solved, columns: Columns) -> io::Result<()> {
+fn write_json(actor: &Actor, solved: &Solved, standard_errors: bool) -> io::Result<()> {
     let mut out = BufWriter::new(io::stdout().lock());
     let controls = muscle_names(actor).map(|it| proto::Control {
         name: it.to_owned(),
@@ -168,7 +176,7 @@ fn write_json(actor: &Actor, solved: &Solved, columns: Columns) -> io::Result<()
             activations: row.activations,
             ..proto::CurveSample::default()
         };
-        if columns == Columns::WithStandardErrors {
+        if standard_errors {
             message.standard_errors = row.standard_errors;
         }
         message.set_quality(wire_quality(sample.quality));

@@ -1,10 +1,14 @@
 //! A simulated stage, paced in real time, into a publication.
 
-use std::{future::Future, time::Duration};
+use std::{
+    future::Future,
+    sync::{Arc, OnceLock},
+    time::Duration,
+};
 
 use frontalis_analysis::{face::actor::Actor, space::PerformancePoint};
 use frontalis_client::{
-    capture_client::{CaptureClient, CaptureSettings},
+    capture_client::{CaptureClient, CaptureClock, CaptureSettings},
     proto::{Ingest, LengthUnit, MarkerFrame},
     simulated_stage::StageFrame,
 };
@@ -48,6 +52,21 @@ pub fn wire_positions(frame: &StageFrame) -> impl Iterator<Item = [f32; 3]> {
         .map(move |it| it.map_or([f32::NAN; 3], coordinates))
 }
 
+/// The clock of a stage's capture times: it starts with the first frame.
+#[derive(Clone, Debug, Default)]
+pub struct StageClock(Arc<OnceLock<Instant>>);
+
+impl StageClock {
+    /// As a publication reads it.
+    pub fn capture_clock(&self) -> CaptureClock {
+        let begun = Arc::clone(&self.0);
+        CaptureClock::new(move || {
+            let nanos = begun.get()?.elapsed().as_nanos();
+            Some(i64::try_from(nanos).unwrap_or(i64::MAX))
+        })
+    }
+}
+
 /// How a run went.
 #[derive(Clone, Copy, Debug)]
 pub struct StageRun {
@@ -71,13 +90,14 @@ impl StageRun {
 /// Frames are numbered on from what the session expects next. `on_frame` sees each just before it goes out.
 pub async fn run(
     client: &CaptureClient,
+    clock: &StageClock,
     stage: impl Iterator<Item = StageFrame>,
     rate_hz: f64,
     stop: impl Future<Output = ()>,
     mut on_frame: impl FnMut(&StageFrame),
 ) -> StageRun {
     let numbers_before = client.started().next_expected.saturating_sub(1);
-    let begun = Instant::now();
+    let begun = *clock.0.get_or_init(Instant::now);
     let mut frames = 0_u64;
     let mut worst_delay = Duration::ZERO;
     tokio::pin!(stop);

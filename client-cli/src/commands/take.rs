@@ -1,12 +1,10 @@
 //! `frontalis take …`: record sessions, and what becomes of the recordings.
 
+mod export;
 mod play;
+mod resolve;
 
-use std::{
-    io::Write as _,
-    path::{Path, PathBuf},
-    process::ExitCode,
-};
+use std::process::ExitCode;
 
 use anyhow::Context as _;
 use clap::{Args, Subcommand};
@@ -15,6 +13,7 @@ use frontalis_proto::FieldMask;
 use proto::take_service_client::TakeServiceClient;
 
 use self::play::PlayArgs;
+use self::resolve::ResolveArgs;
 use super::{
     Context, actor_name,
     names::{session_name, take_name},
@@ -36,17 +35,20 @@ pub enum TakeCommand {
     Show(IdArgs),
     /// Correct what is said of a take: slate, number, gesture, notes, the director's choice
     Label(LabelArgs),
-    /// Save a take's file: an MCAP, which Foxglove opens
-    Export(ExportArgs),
+    /// Save a take: its MCAP, or curves as CSV, for Live Link or moving a face, or markers as TRC or C3D
+    Export(export::ExportArgs),
     /// Publish a take again, in time, into a session
     Play(PlayArgs),
+    /// Solve a take again into a new one, with another revision of the actor or other settings
+    Resolve(ResolveArgs),
     /// Erase a take; nothing of it stays on the server's disk, and it cannot be brought back
     Delete(DeleteArgs),
 }
 
 #[derive(Debug, Args)]
 #[command(after_help = "Example:
-  frontalis take start stage-1 --slate 12A   the next take of slate 12A")]
+  frontalis take start stage-1 --slate 12A                  the next take of slate 12A
+  frontalis take start stage-1 --pre-roll 5 --gesture smile  with the five seconds before")]
 pub struct StartArgs {
     /// The session to be recorded
     session: String,
@@ -59,6 +61,12 @@ pub struct StartArgs {
     /// What a training take shows
     #[arg(long, value_name = "LABEL", default_value = "")]
     gesture: String,
+    /// So many seconds of what came before, from 0 to 10: frames and curves that the session still holds
+    #[arg(long, value_name = "SECS", default_value_t = 0.0)]
+    pre_roll: f64,
+    /// Keep raw images too, which a session of markers has none of
+    #[arg(long)]
+    with_images: bool,
 }
 
 #[derive(Debug, Args)]
@@ -106,14 +114,6 @@ pub struct LabelArgs {
 }
 
 #[derive(Debug, Args)]
-pub struct ExportArgs {
-    /// The take
-    id: String,
-    /// Where to [default: the take's id with .mcap]
-    file: Option<PathBuf>,
-}
-
-#[derive(Debug, Args)]
 pub struct DeleteArgs {
     /// The take
     id: String,
@@ -141,7 +141,9 @@ pub async fn run(context: &Context, command: TakeCommand) -> anyhow::Result<Exit
             return Ok(ExitCode::SUCCESS);
         }
         TakeCommand::Export(args) => {
-            export(&mut client, &args).await.context(what)?;
+            export::run(context, &mut client, &args)
+                .await
+                .context(what)?;
             return Ok(ExitCode::SUCCESS);
         }
         TakeCommand::Delete(args) => {
@@ -157,6 +159,7 @@ pub async fn run(context: &Context, command: TakeCommand) -> anyhow::Result<Exit
         TakeCommand::Start(args) => start(&mut client, args).await,
         TakeCommand::Stop(args) => stop(&mut client, &args).await,
         TakeCommand::Show(args) => show(&mut client, &args).await,
+        TakeCommand::Resolve(args) => resolve::run(&mut client, &args).await,
         TakeCommand::Label(args) => label(&mut client, args).await,
     };
     let take = take.context(what)?.unwrap_or_default();
@@ -179,6 +182,7 @@ impl TakeCommand {
             Self::Label(args) => format!("cannot change take {}", args.id),
             Self::Export(args) => format!("cannot save take {}", args.id),
             Self::Play(args) => format!("cannot play {}", args.take()),
+            Self::Resolve(args) => format!("cannot solve take {} again", args.id),
             Self::Delete(args) => format!("cannot erase take {}", args.id),
         }
     }
@@ -190,9 +194,26 @@ async fn start(client: &mut Client, args: StartArgs) -> Result<Option<proto::Tak
         slate: args.slate,
         number: args.number.unwrap_or_default(),
         gesture: args.gesture,
-        ..proto::StartTakeRequest::default()
+        with_images: args.with_images,
+        pre_roll: (args.pre_roll > 0.0).then(|| seconds(args.pre_roll)),
     };
+    if args.with_images {
+        eprintln!(
+            "note: a session of markers has no images: --with-images is noted and has no effect"
+        );
+    }
     Ok(client.start_take(request).await?.into_inner().take)
+}
+
+#[expect(
+    clippy::cast_possible_truncation,
+    reason = "the server takes 0 to 10 s and refuses what saturates"
+)]
+fn seconds(secs: f64) -> pbjson_types::Duration {
+    pbjson_types::Duration {
+        seconds: secs.trunc() as i64,
+        nanos: (secs.fract() * 1e9).round() as i32,
+    }
 }
 
 async fn stop(client: &mut Client, args: &IdArgs) -> Result<Option<proto::Take>, ClientError> {
@@ -266,37 +287,4 @@ async fn list(context: &Context, client: &mut Client, args: ListArgs) -> anyhow:
         say(tables::takes(&takes))?;
     }
     Ok(())
-}
-
-/// A file that is there already is not touched.
-async fn export(client: &mut Client, args: &ExportArgs) -> anyhow::Result<()> {
-    let name = take_name(&args.id);
-    let beside = || PathBuf::from(format!("{}.mcap", super::short_id(&name)));
-    let file = args.file.clone().unwrap_or_else(beside);
-    let request = proto::ExportTakeRequest {
-        name: name.clone(),
-        format: proto::TakeFormat::Mcap.into(),
-    };
-    let pieces = client
-        .export_take(request)
-        .await
-        .map_err(ClientError::from)?;
-    let n_bytes = save(pieces.into_inner(), &file).await?;
-    say(format!("{n_bytes} bytes in {}", file.display()))?;
-    Ok(())
-}
-
-async fn save(
-    mut pieces: tonic::Streaming<proto::ExportTakeResponse>,
-    file: &Path,
-) -> anyhow::Result<usize> {
-    let named = || format!("cannot write {}", file.display());
-    let mut to = std::fs::File::create_new(file).with_context(named)?;
-    let mut n_bytes = 0;
-    while let Some(piece) = pieces.message().await.map_err(ClientError::from)? {
-        to.write_all(&piece.chunk).with_context(named)?;
-        n_bytes += piece.chunk.len();
-    }
-    to.sync_all().with_context(named)?;
-    Ok(n_bytes)
 }

@@ -7,7 +7,7 @@ use std::{process::ExitCode, time::Duration};
 use anyhow::{Context as _, bail};
 use clap::Args;
 use frontalis_client::{
-    csv::Columns,
+    csv,
     curve_client::{CurveClient, CurveEvent, CurveSettings, StartAt, Wanted},
 };
 use tokio::time::{MissedTickBehavior, interval};
@@ -91,7 +91,7 @@ impl WatchArgs {
 }
 
 pub async fn run(context: &Context, args: WatchArgs) -> anyhow::Result<ExitCode> {
-    let columns = Columns::wanted(args.standard_errors);
+    let columns = csv::columns(args.standard_errors);
     if args.standard_errors && !args.csv && !context.json {
         bail!("--standard-errors needs --csv or --json: live bars do not show them");
     }

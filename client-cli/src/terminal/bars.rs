@@ -2,8 +2,9 @@
 
 use std::time::Duration;
 
+use frontalis_analysis::format::curve_csv::quality_name;
 use frontalis_client::{
-    csv::quality_name,
+    csv::quality,
     curve_client::CurveEvent,
     proto::{CurveHeader, CurveSample, FaceRegion, Quality, SessionState},
 };
@@ -156,7 +157,7 @@ impl Picture {
         let Some(sample) = &self.sample else {
             return Line::raw("no sample yet");
         };
-        let mut parts = vec![format!("{:8}", quality_name(sample.quality()))];
+        let mut parts = vec![format!("{:8}", quality_name(quality(sample.quality())))];
         parts.extend(sample.region_errors.iter().map(|it| {
             format!(
                 "{} marker error {:.2} mm ({} seen) {}",

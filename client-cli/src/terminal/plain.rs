@@ -2,8 +2,9 @@
 
 use std::{io, time::Duration};
 
+use frontalis_analysis::format::curve_csv::quality_name;
 use frontalis_client::{
-    csv::quality_name,
+    csv::quality,
     curve_client::CurveEvent,
     proto::{CurveHeader, CurveSample},
 };
@@ -69,7 +70,7 @@ impl PlainLines {
         let mut parts = vec![
             format!("frame {}", sample.frame),
             format!("{:.1} samples/s", self.rate.per_second(now)),
-            quality_name(sample.quality()).to_owned(),
+            quality_name(quality(sample.quality())).to_owned(),
         ];
         parts.extend(sample.region_errors.iter().map(|it| {
             let error_mm = it.marker_error_cm * 10.0;

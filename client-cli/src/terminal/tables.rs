@@ -3,7 +3,7 @@
 use comfy_table::{ContentArrangement, Table, presets};
 use frontalis_client::proto::{
     Actor, CaptureKind, ControlRange, FaceRegion, RegionMode, Role, Server, Session,
-    SessionSettings, SessionState, SessionStatus, Take,
+    SessionSettings, SessionState, SessionStatus, Take, Timecode,
 };
 
 use super::trust;
@@ -109,6 +109,7 @@ pub fn takes(takes: &[Take]) -> Table {
         "actor",
         "slate",
         "number",
+        "starts at",
         "state",
         "frames",
         "first",
@@ -120,6 +121,10 @@ pub fn takes(takes: &[Take]) -> Table {
     for take in takes {
         let name = take.state().as_str_name().trim_start_matches("TAKE_STATE_");
         let state = name.to_ascii_lowercase().replace('_', " ");
+        let resolved = match take.resolved_from.as_str() {
+            "" => String::new(),
+            from => format!(", solved from {}", short_id(from)),
+        };
         let recovered = if take.recovered { ", recovered" } else { "" };
         table.add_row([
             short_id(&take.name).to_owned(),
@@ -127,7 +132,8 @@ pub fn takes(takes: &[Take]) -> Table {
             short_id(&take.actor).to_owned(),
             take.slate.clone(),
             take.number.to_string(),
-            format!("{state}{recovered}"),
+            timecode(take.start_timecode.as_ref()),
+            format!("{state}{recovered}{resolved}"),
             take.n_frames.to_string(),
             take.first_frame.to_string(),
             take.last_frame.to_string(),
@@ -137,6 +143,17 @@ pub fn takes(takes: &[Take]) -> Table {
         ]);
     }
     table
+}
+
+/// As a clock on the stage shows it: `;` before the frames where labels are dropped; empty without one.
+fn timecode(timecode: Option<&Timecode>) -> String {
+    timecode.map_or_else(String::new, |it| {
+        let mark = if it.drop_frame { ';' } else { ':' };
+        format!(
+            "{:02}:{:02}:{:02}{mark}{:02}",
+            it.hours, it.minutes, it.seconds, it.frames
+        )
+    })
 }
 
 /// One line a session.
@@ -261,6 +278,7 @@ fn session_facts(session: &Session, status: &SessionStatus) -> Vec<(&'static str
             "aligns on request",
             yes(settings.align_on_request.unwrap_or_default()),
         ),
+        ("records itself", yes(settings.record())),
         ("objective", objective(&settings)),
         ("bounds of its own", own_bounds(&settings)),
         ("exclusive pairs", exclusive_pairs(&settings)),
@@ -276,6 +294,25 @@ fn session_facts(session: &Session, status: &SessionStatus) -> Vec<(&'static str
         rows.push((
             "alignment: residual (mm)",
             format!("{:.3}", alignment.rms_residual_cm * 10.0),
+        ));
+    }
+    if let Some(clock) = status.clock {
+        let millis = |nanos: f64| format!("{:.3}", nanos * 1e-6);
+        rows.push((
+            "capture clock: offset (ms)",
+            format!(
+                "{} ± {}",
+                millis(clock.offset_nanos as f64),
+                millis(clock.uncertainty_nanos as f64)
+            ),
+        ));
+        rows.push((
+            "capture clock: drift (ppm)",
+            format!("{:.1}", clock.drift_ppm),
+        ));
+        rows.push((
+            "capture clock: round trip (ms)",
+            millis(clock.round_trip_nanos as f64),
         ));
     }
     if !status.alignment_problem.is_empty() {

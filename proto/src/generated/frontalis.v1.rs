@@ -11,7 +11,8 @@ pub struct Timecode {
     /// 0..59
     #[prost(uint32, tag = "3")]
     pub seconds: u32,
-    /// 0..rate-1; with drop_frame, 0 and 1 do not occur at the minutes SMPTE drops
+    /// 0..rate-1; with drop_frame, 0 and 1 (at 60000/1001 also 2 and 3) do not occur in the first second of a minute that is
+    /// no multiple of ten.
     #[prost(uint32, tag = "4")]
     pub frames: u32,
     /// Frames per second as a fraction: 30000/1001, 60/1, ...
@@ -473,8 +474,12 @@ impl ::prost::Name for DeleteActorRequest {
         "/frontalis.v1.DeleteActorRequest".into()
     }
 }
-#[derive(Clone, Copy, PartialEq, Eq, Hash, ::prost::Message)]
-pub struct DeleteActorResponse {}
+#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct DeleteActorResponse {
+    /// with `with_takes` only
+    #[prost(message, optional, tag = "1")]
+    pub receipt: ::core::option::Option<ErasureReceipt>,
+}
 impl ::prost::Name for DeleteActorResponse {
     const NAME: &'static str = "DeleteActorResponse";
     const PACKAGE: &'static str = "frontalis.v1";
@@ -483,6 +488,34 @@ impl ::prost::Name for DeleteActorResponse {
     }
     fn type_url() -> ::prost::alloc::string::String {
         "/frontalis.v1.DeleteActorResponse".into()
+    }
+}
+/// What was erased of a person. When it is given, none of it is left in the server's data directory, but for the ids in the
+/// audit log.
+#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
+pub struct ErasureReceipt {
+    #[prost(string, tag = "1")]
+    pub actor: ::prost::alloc::string::String,
+    #[prost(message, optional, tag = "2")]
+    pub erase_time: ::core::option::Option<crate::Timestamp>,
+    #[prost(uint64, tag = "3")]
+    pub n_revisions: u64,
+    #[prost(uint64, tag = "4")]
+    pub n_sessions: u64,
+    #[prost(uint64, tag = "5")]
+    pub n_takes: u64,
+    /// of packages and of takes
+    #[prost(uint64, tag = "6")]
+    pub n_bytes: u64,
+}
+impl ::prost::Name for ErasureReceipt {
+    const NAME: &'static str = "ErasureReceipt";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.ErasureReceipt".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.ErasureReceipt".into()
     }
 }
 #[derive(Clone, PartialEq, ::prost::Message)]
@@ -1438,7 +1471,8 @@ pub struct SessionSettings {
     /// default 10 s
     #[prost(message, optional, tag = "8")]
     pub publisher_timeout: ::core::option::Option<::pbjson_types::Duration>,
-    /// start a take with the first frame; false
+    /// A run is recorded from its first frame on: the first publisher of the run starts a take, and is refused with the reason
+    /// when it cannot be recorded. A run that has frames already is not; StartTake records it. false
     #[prost(bool, optional, tag = "9")]
     pub record: ::core::option::Option<bool>,
     #[prost(enumeration = "RegionMode", tag = "10")]
@@ -1451,7 +1485,7 @@ pub struct SessionSettings {
     /// align only when Recenter is called, not on the first frames; false
     #[prost(bool, optional, tag = "12")]
     pub align_on_request: ::core::option::Option<bool>,
-    /// the take that `record` starts keeps raw images; false
+    /// the take that `record` starts keeps raw images, of which a session of markers has none; false
     #[prost(bool, optional, tag = "13")]
     pub record_images: ::core::option::Option<bool>,
     /// 0 off .. 1; draws a muscle and its mirror image together, more hides what is one-sided; 0
@@ -4757,6 +4791,7 @@ pub struct Take {
     /// label of a training take; empty: none
     #[prost(string, tag = "14")]
     pub gesture: ::prost::alloc::string::String,
+    /// of the first frame that has one
     #[prost(message, optional, tag = "15")]
     pub start_timecode: ::core::option::Option<Timecode>,
     #[prost(enumeration = "TakeState", tag = "16")]
@@ -4768,6 +4803,9 @@ pub struct Take {
     pub notes: ::prost::alloc::string::String,
     #[prost(bool, tag = "19")]
     pub with_images: bool,
+    /// "takes/{id}" whose frames were solved again into this one; empty: captured
+    #[prost(string, tag = "20")]
+    pub resolved_from: ::prost::alloc::string::String,
 }
 impl ::prost::Name for Take {
     const NAME: &'static str = "Take";
@@ -4790,10 +4828,11 @@ pub struct StartTakeRequest {
     pub number: u32,
     #[prost(string, tag = "4")]
     pub gesture: ::prost::alloc::string::String,
-    /// keep the raw images too
+    /// keep the raw images too; noted, and without effect, in a session of markers
     #[prost(bool, tag = "5")]
     pub with_images: bool,
-    /// from what the session still holds
+    /// So much of what came before, from the frames and samples that the session still holds: those of the last ten
+    /// seconds at most, the oldest out first. They stand in the take as frames below `TakeHeader.next_frame`.
     #[prost(message, optional, tag = "6")]
     pub pre_roll: ::core::option::Option<::pbjson_types::Duration>,
 }
@@ -4999,10 +5038,17 @@ impl ::prost::Name for ExportTakeRequest {
         "/frontalis.v1.ExportTakeRequest".into()
     }
 }
-#[derive(Clone, PartialEq, Eq, Hash, ::prost::Message)]
+#[derive(Clone, PartialEq, ::prost::Message)]
 pub struct ExportTakeResponse {
     #[prost(bytes = "vec", tag = "1")]
     pub chunk: ::prost::alloc::vec::Vec<u8>,
+    /// rows of the export so far, of `export.n_frames`; MCAP: bytes so far, of `export.n_bytes`
+    #[prost(uint64, tag = "2")]
+    pub frames_done: u64,
+    /// First response: what comes. Last response: the same with the number of bytes and their checksum; without it the export is
+    /// not whole.
+    #[prost(message, optional, tag = "3")]
+    pub export: ::core::option::Option<TakeExport>,
 }
 impl ::prost::Name for ExportTakeResponse {
     const NAME: &'static str = "ExportTakeResponse";
@@ -5012,6 +5058,55 @@ impl ::prost::Name for ExportTakeResponse {
     }
     fn type_url() -> ::prost::alloc::string::String {
         "/frontalis.v1.ExportTakeResponse".into()
+    }
+}
+/// What an export holds: frames from first to last, but for the gaps.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct TakeExport {
+    #[prost(enumeration = "TakeFormat", tag = "1")]
+    pub format: i32,
+    /// from slate and take number
+    #[prost(string, tag = "2")]
+    pub file_name: ::prost::alloc::string::String,
+    /// A row of an export is a frame: of the formats of curves one that gave a sample, of the formats of markers one that came
+    /// in its turn.
+    #[prost(uint64, tag = "3")]
+    pub first_frame: u64,
+    #[prost(uint64, tag = "4")]
+    pub last_frame: u64,
+    #[prost(uint64, tag = "5")]
+    pub n_frames: u64,
+    /// Spans of frame numbers between first and last that have no row: how many, the frames in them, and the first 256 of them.
+    #[prost(uint64, tag = "6")]
+    pub n_gaps: u64,
+    #[prost(uint64, tag = "7")]
+    pub n_missing_frames: u64,
+    #[prost(message, repeated, tag = "8")]
+    pub gaps: ::prost::alloc::vec::Vec<Gap>,
+    /// recorded, and without a row: not solved, or came late
+    #[prost(uint64, tag = "9")]
+    pub n_dropped_frames: u64,
+    /// of the first row
+    #[prost(message, optional, tag = "10")]
+    pub start_timecode: ::core::option::Option<Timecode>,
+    /// last response; of MCAP also the first
+    #[prost(uint64, tag = "11")]
+    pub n_bytes: u64,
+    /// last response; of all chunks, 64 hexadecimal digits
+    #[prost(string, tag = "12")]
+    pub sha256: ::prost::alloc::string::String,
+    /// TAKE_FORMAT_LIVE_LINK_CSV: shapes that no muscle drives; they are 0 throughout
+    #[prost(string, repeated, tag = "13")]
+    pub undriven_shapes: ::prost::alloc::vec::Vec<::prost::alloc::string::String>,
+}
+impl ::prost::Name for TakeExport {
+    const NAME: &'static str = "TakeExport";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.TakeExport".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.TakeExport".into()
     }
 }
 #[derive(Clone, PartialEq, ::prost::Message)]
@@ -5059,7 +5154,7 @@ impl ::prost::Name for ResolveTakeResponse {
 /// which it happened: all that is needed to solve the frames again.
 #[derive(Clone, PartialEq, ::prost::Message)]
 pub struct TakeEvent {
-    #[prost(oneof = "take_event::Event", tags = "1, 2, 3, 4, 5, 6, 7, 8, 9")]
+    #[prost(oneof = "take_event::Event", tags = "1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11")]
     pub event: ::core::option::Option<take_event::Event>,
 }
 /// Nested message and enum types in `TakeEvent`.
@@ -5093,6 +5188,12 @@ pub mod take_event {
         /// here the file was damaged, and nothing of it could be read
         #[prost(message, tag = "9")]
         Cut(super::TakeCut),
+        /// what the first frame is solved from; frames that came meanwhile may stand before it
+        #[prost(message, tag = "10")]
+        AnalysisState(super::AnalysisState),
+        /// the publisher's clock as the server sees it from here on
+        #[prost(message, tag = "11")]
+        Clock(super::TakeClock),
     }
 }
 impl ::prost::Name for TakeEvent {
@@ -5145,6 +5246,17 @@ pub struct TakeHeader {
     /// first frame number that the session did not have at the start
     #[prost(uint64, tag = "16")]
     pub next_frame: u64,
+    /// "takes/{id}" whose frames were solved again into this one; empty: captured
+    #[prost(string, tag = "17")]
+    pub resolved_from: ::prost::alloc::string::String,
+    /// first frame of the pre-roll, which ends before `next_frame`; 0: none
+    #[prost(uint64, tag = "18")]
+    pub pre_roll_from: u64,
+    /// of the frame before `next_frame`, when its publisher may go on
+    #[prost(sfixed64, optional, tag = "19")]
+    pub last_capture_time_nanos: ::core::option::Option<i64>,
+    #[prost(bool, tag = "20")]
+    pub with_images: bool,
 }
 impl ::prost::Name for TakeHeader {
     const NAME: &'static str = "TakeHeader";
@@ -5169,6 +5281,12 @@ pub struct TakeSource {
     pub marker_names: ::prost::alloc::vec::Vec<::prost::alloc::string::String>,
     #[prost(double, tag = "5")]
     pub rate_hz: f64,
+    /// it published before the take began
+    #[prost(bool, tag = "6")]
+    pub continued: bool,
+    /// another one than published before, whose capture times say nothing about its own
+    #[prost(bool, tag = "7")]
+    pub is_other: bool,
 }
 impl ::prost::Name for TakeSource {
     const NAME: &'static str = "TakeSource";
@@ -5233,6 +5351,89 @@ impl ::prost::Name for TakeAlignment {
     }
     fn type_url() -> ::prost::alloc::string::String {
         "/frontalis.v1.TakeAlignment".into()
+    }
+}
+/// What the analysis of a session knows between two frames: with the frames that follow, all that their samples depend on.
+/// The server that wrote it reads it; others may carry it.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct AnalysisState {
+    /// of `numbers`; 1
+    #[prost(uint32, tag = "1")]
+    pub version: u32,
+    #[prost(uint32, tag = "2")]
+    pub actor_revision: u32,
+    /// all of them
+    #[prost(message, optional, tag = "3")]
+    pub settings: ::core::option::Option<SessionSettings>,
+    /// absent: the neutral face is not known
+    #[prost(message, optional, tag = "4")]
+    pub alignment: ::core::option::Option<TakeAlignment>,
+    /// the stream that is read, without a publisher; absent: none yet
+    #[prost(message, optional, tag = "5")]
+    pub source: ::core::option::Option<TakeSource>,
+    /// another neutral face was asked for, and not tried yet
+    #[prost(bool, tag = "6")]
+    pub recentering: bool,
+    /// what frames give until the next request; unspecified: they are solved
+    #[prost(enumeration = "GapCause", tag = "7")]
+    pub giving_up: i32,
+    /// frames at another scale, in a row
+    #[prost(uint32, tag = "8")]
+    pub scale_jumps: u32,
+    /// of the analyzer, in its order
+    #[prost(message, repeated, tag = "9")]
+    pub numbers: ::prost::alloc::vec::Vec<StateNumbers>,
+}
+impl ::prost::Name for AnalysisState {
+    const NAME: &'static str = "AnalysisState";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.AnalysisState".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.AnalysisState".into()
+    }
+}
+/// One field of a state.
+#[derive(Clone, PartialEq, ::prost::Message)]
+pub struct StateNumbers {
+    #[prost(string, tag = "1")]
+    pub name: ::prost::alloc::string::String,
+    #[prost(double, repeated, tag = "2")]
+    pub reals: ::prost::alloc::vec::Vec<f64>,
+    #[prost(uint64, repeated, tag = "3")]
+    pub integers: ::prost::alloc::vec::Vec<u64>,
+}
+impl ::prost::Name for StateNumbers {
+    const NAME: &'static str = "StateNumbers";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.StateNumbers".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.StateNumbers".into()
+    }
+}
+/// The offset of the publisher's capture clock. Capture times are recorded as they were sent, whatever this says.
+#[derive(Clone, Copy, PartialEq, ::prost::Message)]
+pub struct TakeClock {
+    #[prost(message, optional, tag = "1")]
+    pub clock: ::core::option::Option<ClockReport>,
+    /// server monotonic clock, when this was known
+    #[prost(sfixed64, tag = "2")]
+    pub server_time_nanos: i64,
+    /// Unix time minus the server's monotonic clock, at the start of the server
+    #[prost(sfixed64, tag = "3")]
+    pub unix_offset_nanos: i64,
+}
+impl ::prost::Name for TakeClock {
+    const NAME: &'static str = "TakeClock";
+    const PACKAGE: &'static str = "frontalis.v1";
+    fn full_name() -> ::prost::alloc::string::String {
+        "frontalis.v1.TakeClock".into()
+    }
+    fn type_url() -> ::prost::alloc::string::String {
+        "/frontalis.v1.TakeClock".into()
     }
 }
 #[derive(Clone, Copy, PartialEq, Eq, Hash, ::prost::Message)]
@@ -5328,6 +5529,8 @@ pub enum TakeState {
     TruncatedDiskFull = 4,
     /// unreadable; kept for a person to look at
     Quarantined = 5,
+    /// cut short by a crash; its file is being brought into order, ask for it again soon
+    Recovering = 6,
 }
 impl TakeState {
     /// String value of the enum field names used in the ProtoBuf definition.
@@ -5342,6 +5545,7 @@ impl TakeState {
             Self::Degraded => "TAKE_STATE_DEGRADED",
             Self::TruncatedDiskFull => "TAKE_STATE_TRUNCATED_DISK_FULL",
             Self::Quarantined => "TAKE_STATE_QUARANTINED",
+            Self::Recovering => "TAKE_STATE_RECOVERING",
         }
     }
     /// Creates an enum from field names used in the ProtoBuf definition.
@@ -5353,6 +5557,7 @@ impl TakeState {
             "TAKE_STATE_DEGRADED" => Some(Self::Degraded),
             "TAKE_STATE_TRUNCATED_DISK_FULL" => Some(Self::TruncatedDiskFull),
             "TAKE_STATE_QUARANTINED" => Some(Self::Quarantined),
+            "TAKE_STATE_RECOVERING" => Some(Self::Recovering),
             _ => None,
         }
     }
@@ -5620,7 +5825,9 @@ pub mod take_service_client {
             self.inner.server_streaming(req, path, codec).await
         }
         /// Solves the recorded frames again, with another revision or other settings, into a new take. The same inputs give
-        /// the same bits.
+        /// the same bits: everything of a sample but its sequence and the server's times. Frames before `TakeHeader.next_frame`,
+        /// the pre-roll, are the exception: they are solved from the alignment that the take began with.
+        /// Progress comes at least once a second; a call that is cancelled leaves nothing behind.
         pub async fn resolve_take(
             &mut self,
             request: impl tonic::IntoRequest<super::ResolveTakeRequest>,
@@ -5719,7 +5926,9 @@ pub mod take_service_server {
             + std::marker::Send
             + 'static;
         /// Solves the recorded frames again, with another revision or other settings, into a new take. The same inputs give
-        /// the same bits.
+        /// the same bits: everything of a sample but its sequence and the server's times. Frames before `TakeHeader.next_frame`,
+        /// the pre-roll, are the exception: they are solved from the alignment that the take began with.
+        /// Progress comes at least once a second; a call that is cancelled leaves nothing behind.
         async fn resolve_take(
             &self,
             request: tonic::Request<super::ResolveTakeRequest>,

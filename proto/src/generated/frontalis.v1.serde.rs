@@ -423,6 +423,244 @@ impl<'de> serde::Deserialize<'de> for AlignmentReport {
         deserializer.deserialize_struct("frontalis.v1.AlignmentReport", FIELDS, GeneratedVisitor)
     }
 }
+impl serde::Serialize for AnalysisState {
+    #[allow(deprecated)]
+    fn serialize<S>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error>
+    where
+        S: serde::Serializer,
+    {
+        use serde::ser::SerializeStruct;
+        let mut len = 0;
+        if self.version != 0 {
+            len += 1;
+        }
+        if self.actor_revision != 0 {
+            len += 1;
+        }
+        if self.settings.is_some() {
+            len += 1;
+        }
+        if self.alignment.is_some() {
+            len += 1;
+        }
+        if self.source.is_some() {
+            len += 1;
+        }
+        if self.recentering {
+            len += 1;
+        }
+        if self.giving_up != 0 {
+            len += 1;
+        }
+        if self.scale_jumps != 0 {
+            len += 1;
+        }
+        if !self.numbers.is_empty() {
+            len += 1;
+        }
+        let mut struct_ser = serializer.serialize_struct("frontalis.v1.AnalysisState", len)?;
+        if self.version != 0 {
+            struct_ser.serialize_field("version", &self.version)?;
+        }
+        if self.actor_revision != 0 {
+            struct_ser.serialize_field("actorRevision", &self.actor_revision)?;
+        }
+        if let Some(v) = self.settings.as_ref() {
+            struct_ser.serialize_field("settings", v)?;
+        }
+        if let Some(v) = self.alignment.as_ref() {
+            struct_ser.serialize_field("alignment", v)?;
+        }
+        if let Some(v) = self.source.as_ref() {
+            struct_ser.serialize_field("source", v)?;
+        }
+        if self.recentering {
+            struct_ser.serialize_field("recentering", &self.recentering)?;
+        }
+        if self.giving_up != 0 {
+            let v = GapCause::try_from(self.giving_up)
+                .map_err(|_| serde::ser::Error::custom(format!("Invalid variant {}", self.giving_up)))?;
+            struct_ser.serialize_field("givingUp", &v)?;
+        }
+        if self.scale_jumps != 0 {
+            struct_ser.serialize_field("scaleJumps", &self.scale_jumps)?;
+        }
+        if !self.numbers.is_empty() {
+            struct_ser.serialize_field("numbers", &self.numbers)?;
+        }
+        struct_ser.end()
+    }
+}
+impl<'de> serde::Deserialize<'de> for AnalysisState {
+    #[allow(deprecated)]
+    fn deserialize<D>(deserializer: D) -> std::result::Result<Self, D::Error>
+    where
+        D: serde::Deserializer<'de>,
+    {
+        const FIELDS: &[&str] = &[
+            "version",
+            "actor_revision",
+            "actorRevision",
+            "settings",
+            "alignment",
+            "source",
+            "recentering",
+            "giving_up",
+            "givingUp",
+            "scale_jumps",
+            "scaleJumps",
+            "numbers",
+        ];
+
+        #[allow(clippy::enum_variant_names)]
+        enum GeneratedField {
+            Version,
+            ActorRevision,
+            Settings,
+            Alignment,
+            Source,
+            Recentering,
+            GivingUp,
+            ScaleJumps,
+            Numbers,
+        }
+        impl<'de> serde::Deserialize<'de> for GeneratedField {
+            fn deserialize<D>(deserializer: D) -> std::result::Result<GeneratedField, D::Error>
+            where
+                D: serde::Deserializer<'de>,
+            {
+                struct GeneratedVisitor;
+
+                impl serde::de::Visitor<'_> for GeneratedVisitor {
+                    type Value = GeneratedField;
+
+                    fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                        write!(formatter, "expected one of: {:?}", &FIELDS)
+                    }
+
+                    #[allow(unused_variables)]
+                    fn visit_str<E>(self, value: &str) -> std::result::Result<GeneratedField, E>
+                    where
+                        E: serde::de::Error,
+                    {
+                        match value {
+                            "version" => Ok(GeneratedField::Version),
+                            "actorRevision" | "actor_revision" => Ok(GeneratedField::ActorRevision),
+                            "settings" => Ok(GeneratedField::Settings),
+                            "alignment" => Ok(GeneratedField::Alignment),
+                            "source" => Ok(GeneratedField::Source),
+                            "recentering" => Ok(GeneratedField::Recentering),
+                            "givingUp" | "giving_up" => Ok(GeneratedField::GivingUp),
+                            "scaleJumps" | "scale_jumps" => Ok(GeneratedField::ScaleJumps),
+                            "numbers" => Ok(GeneratedField::Numbers),
+                            _ => Err(serde::de::Error::unknown_field(value, FIELDS)),
+                        }
+                    }
+                }
+                deserializer.deserialize_identifier(GeneratedVisitor)
+            }
+        }
+        struct GeneratedVisitor;
+        impl<'de> serde::de::Visitor<'de> for GeneratedVisitor {
+            type Value = AnalysisState;
+
+            fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                formatter.write_str("struct frontalis.v1.AnalysisState")
+            }
+
+            fn visit_map<V>(self, mut map_: V) -> std::result::Result<AnalysisState, V::Error>
+                where
+                    V: serde::de::MapAccess<'de>,
+            {
+                let mut version__ = None;
+                let mut actor_revision__ = None;
+                let mut settings__ = None;
+                let mut alignment__ = None;
+                let mut source__ = None;
+                let mut recentering__ = None;
+                let mut giving_up__ = None;
+                let mut scale_jumps__ = None;
+                let mut numbers__ = None;
+                while let Some(k) = map_.next_key()? {
+                    match k {
+                        GeneratedField::Version => {
+                            if version__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("version"));
+                            }
+                            version__ = 
+                                Some(map_.next_value::<::pbjson::private::NumberDeserialize<_>>()?.0)
+                            ;
+                        }
+                        GeneratedField::ActorRevision => {
+                            if actor_revision__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("actorRevision"));
+                            }
+                            actor_revision__ = 
+                                Some(map_.next_value::<::pbjson::private::NumberDeserialize<_>>()?.0)
+                            ;
+                        }
+                        GeneratedField::Settings => {
+                            if settings__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("settings"));
+                            }
+                            settings__ = map_.next_value()?;
+                        }
+                        GeneratedField::Alignment => {
+                            if alignment__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("alignment"));
+                            }
+                            alignment__ = map_.next_value()?;
+                        }
+                        GeneratedField::Source => {
+                            if source__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("source"));
+                            }
+                            source__ = map_.next_value()?;
+                        }
+                        GeneratedField::Recentering => {
+                            if recentering__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("recentering"));
+                            }
+                            recentering__ = Some(map_.next_value()?);
+                        }
+                        GeneratedField::GivingUp => {
+                            if giving_up__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("givingUp"));
+                            }
+                            giving_up__ = Some(map_.next_value::<GapCause>()? as i32);
+                        }
+                        GeneratedField::ScaleJumps => {
+                            if scale_jumps__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("scaleJumps"));
+                            }
+                            scale_jumps__ = 
+                                Some(map_.next_value::<::pbjson::private::NumberDeserialize<_>>()?.0)
+                            ;
+                        }
+                        GeneratedField::Numbers => {
+                            if numbers__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("numbers"));
+                            }
+                            numbers__ = Some(map_.next_value()?);
+                        }
+                    }
+                }
+                Ok(AnalysisState {
+                    version: version__.unwrap_or_default(),
+                    actor_revision: actor_revision__.unwrap_or_default(),
+                    settings: settings__,
+                    alignment: alignment__,
+                    source: source__,
+                    recentering: recentering__.unwrap_or_default(),
+                    giving_up: giving_up__.unwrap_or_default(),
+                    scale_jumps: scale_jumps__.unwrap_or_default(),
+                    numbers: numbers__.unwrap_or_default(),
+                })
+            }
+        }
+        deserializer.deserialize_struct("frontalis.v1.AnalysisState", FIELDS, GeneratedVisitor)
+    }
+}
 impl serde::Serialize for BasisReport {
     #[allow(deprecated)]
     fn serialize<S>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error>
@@ -3025,8 +3263,14 @@ impl serde::Serialize for DeleteActorResponse {
         S: serde::Serializer,
     {
         use serde::ser::SerializeStruct;
-        let len = 0;
-        let struct_ser = serializer.serialize_struct("frontalis.v1.DeleteActorResponse", len)?;
+        let mut len = 0;
+        if self.receipt.is_some() {
+            len += 1;
+        }
+        let mut struct_ser = serializer.serialize_struct("frontalis.v1.DeleteActorResponse", len)?;
+        if let Some(v) = self.receipt.as_ref() {
+            struct_ser.serialize_field("receipt", v)?;
+        }
         struct_ser.end()
     }
 }
@@ -3037,10 +3281,12 @@ impl<'de> serde::Deserialize<'de> for DeleteActorResponse {
         D: serde::Deserializer<'de>,
     {
         const FIELDS: &[&str] = &[
+            "receipt",
         ];
 
         #[allow(clippy::enum_variant_names)]
         enum GeneratedField {
+            Receipt,
         }
         impl<'de> serde::Deserialize<'de> for GeneratedField {
             fn deserialize<D>(deserializer: D) -> std::result::Result<GeneratedField, D::Error>
@@ -3061,7 +3307,10 @@ impl<'de> serde::Deserialize<'de> for DeleteActorResponse {
                     where
                         E: serde::de::Error,
                     {
-                            Err(serde::de::Error::unknown_field(value, FIELDS))
+                        match value {
+                            "receipt" => Ok(GeneratedField::Receipt),
+                            _ => Err(serde::de::Error::unknown_field(value, FIELDS)),
+                        }
                     }
                 }
                 deserializer.deserialize_identifier(GeneratedVisitor)
@@ -3079,10 +3328,19 @@ impl<'de> serde::Deserialize<'de> for DeleteActorResponse {
                 where
                     V: serde::de::MapAccess<'de>,
             {
-                while map_.next_key::<GeneratedField>()?.is_some() {
-                    let _ = map_.next_value::<serde::de::IgnoredAny>()?;
+                let mut receipt__ = None;
+                while let Some(k) = map_.next_key()? {
+                    match k {
+                        GeneratedField::Receipt => {
+                            if receipt__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("receipt"));
+                            }
+                            receipt__ = map_.next_value()?;
+                        }
+                    }
                 }
                 Ok(DeleteActorResponse {
+                    receipt: receipt__,
                 })
             }
         }
@@ -3507,6 +3765,203 @@ impl<'de> serde::Deserialize<'de> for EndSessionResponse {
         deserializer.deserialize_struct("frontalis.v1.EndSessionResponse", FIELDS, GeneratedVisitor)
     }
 }
+impl serde::Serialize for ErasureReceipt {
+    #[allow(deprecated)]
+    fn serialize<S>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error>
+    where
+        S: serde::Serializer,
+    {
+        use serde::ser::SerializeStruct;
+        let mut len = 0;
+        if !self.actor.is_empty() {
+            len += 1;
+        }
+        if self.erase_time.is_some() {
+            len += 1;
+        }
+        if self.n_revisions != 0 {
+            len += 1;
+        }
+        if self.n_sessions != 0 {
+            len += 1;
+        }
+        if self.n_takes != 0 {
+            len += 1;
+        }
+        if self.n_bytes != 0 {
+            len += 1;
+        }
+        let mut struct_ser = serializer.serialize_struct("frontalis.v1.ErasureReceipt", len)?;
+        if !self.actor.is_empty() {
+            struct_ser.serialize_field("actor", &self.actor)?;
+        }
+        if let Some(v) = self.erase_time.as_ref() {
+            struct_ser.serialize_field("eraseTime", v)?;
+        }
+        if self.n_revisions != 0 {
+            #[allow(clippy::needless_borrow)]
+            #[allow(clippy::needless_borrows_for_generic_args)]
+            struct_ser.serialize_field("nRevisions", ToString::to_string(&self.n_revisions).as_str())?;
+        }
+        if self.n_sessions != 0 {
+            #[allow(clippy::needless_borrow)]
+            #[allow(clippy::needless_borrows_for_generic_args)]
+            struct_ser.serialize_field("nSessions", ToString::to_string(&self.n_sessions).as_str())?;
+        }
+        if self.n_takes != 0 {
+            #[allow(clippy::needless_borrow)]
+            #[allow(clippy::needless_borrows_for_generic_args)]
+            struct_ser.serialize_field("nTakes", ToString::to_string(&self.n_takes).as_str())?;
+        }
+        if self.n_bytes != 0 {
+            #[allow(clippy::needless_borrow)]
+            #[allow(clippy::needless_borrows_for_generic_args)]
+            struct_ser.serialize_field("nBytes", ToString::to_string(&self.n_bytes).as_str())?;
+        }
+        struct_ser.end()
+    }
+}
+impl<'de> serde::Deserialize<'de> for ErasureReceipt {
+    #[allow(deprecated)]
+    fn deserialize<D>(deserializer: D) -> std::result::Result<Self, D::Error>
+    where
+        D: serde::Deserializer<'de>,
+    {
+        const FIELDS: &[&str] = &[
+            "actor",
+            "erase_time",
+            "eraseTime",
+            "n_revisions",
+            "nRevisions",
+            "n_sessions",
+            "nSessions",
+            "n_takes",
+            "nTakes",
+            "n_bytes",
+            "nBytes",
+        ];
+
+        #[allow(clippy::enum_variant_names)]
+        enum GeneratedField {
+            Actor,
+            EraseTime,
+            NRevisions,
+            NSessions,
+            NTakes,
+            NBytes,
+        }
+        impl<'de> serde::Deserialize<'de> for GeneratedField {
+            fn deserialize<D>(deserializer: D) -> std::result::Result<GeneratedField, D::Error>
+            where
+                D: serde::Deserializer<'de>,
+            {
+                struct GeneratedVisitor;
+
+                impl serde::de::Visitor<'_> for GeneratedVisitor {
+                    type Value = GeneratedField;
+
+                    fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                        write!(formatter, "expected one of: {:?}", &FIELDS)
+                    }
+
+                    #[allow(unused_variables)]
+                    fn visit_str<E>(self, value: &str) -> std::result::Result<GeneratedField, E>
+                    where
+                        E: serde::de::Error,
+                    {
+                        match value {
+                            "actor" => Ok(GeneratedField::Actor),
+                            "eraseTime" | "erase_time" => Ok(GeneratedField::EraseTime),
+                            "nRevisions" | "n_revisions" => Ok(GeneratedField::NRevisions),
+                            "nSessions" | "n_sessions" => Ok(GeneratedField::NSessions),
+                            "nTakes" | "n_takes" => Ok(GeneratedField::NTakes),
+                            "nBytes" | "n_bytes" => Ok(GeneratedField::NBytes),
+                            _ => Err(serde::de::Error::unknown_field(value, FIELDS)),
+                        }
+                    }
+                }
+                deserializer.deserialize_identifier(GeneratedVisitor)
+            }
+        }
+        struct GeneratedVisitor;
+        impl<'de> serde::de::Visitor<'de> for GeneratedVisitor {
+            type Value = ErasureReceipt;
+
+            fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                formatter.write_str("struct frontalis.v1.ErasureReceipt")
+            }
+
+            fn visit_map<V>(self, mut map_: V) -> std::result::Result<ErasureReceipt, V::Error>
+                where
+                    V: serde::de::MapAccess<'de>,
+            {
+                let mut actor__ = None;
+                let mut erase_time__ = None;
+                let mut n_revisions__ = None;
+                let mut n_sessions__ = None;
+                let mut n_takes__ = None;
+                let mut n_bytes__ = None;
+                while let Some(k) = map_.next_key()? {
+                    match k {
+                        GeneratedField::Actor => {
+                            if actor__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("actor"));
+                            }
+                            actor__ = Some(map_.next_value()?);
+                        }
+                        GeneratedField::EraseTime => {
+                            if erase_time__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("eraseTime"));
+                            }
+                            erase_time__ = map_.next_value()?;
+                        }
+                        GeneratedField::NRevisions => {
+                            if n_revisions__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("nRevisions"));
+                            }
+                            n_revisions__ = 
+                                Some(map_.next_value::<::pbjson::private::NumberDeserialize<_>>()?.0)
+                            ;
+                        }
+                        GeneratedField::NSessions => {
+                            if n_sessions__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("nSessions"));
+                            }
+                            n_sessions__ = 
+                                Some(map_.next_value::<::pbjson::private::NumberDeserialize<_>>()?.0)
+                            ;
+                        }
+                        GeneratedField::NTakes => {
+                            if n_takes__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("nTakes"));
+                            }
+                            n_takes__ = 
+                                Some(map_.next_value::<::pbjson::private::NumberDeserialize<_>>()?.0)
+                            ;
+                        }
+                        GeneratedField::NBytes => {
+                            if n_bytes__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("nBytes"));
+                            }
+                            n_bytes__ = 
+                                Some(map_.next_value::<::pbjson::private::NumberDeserialize<_>>()?.0)
+                            ;
+                        }
+                    }
+                }
+                Ok(ErasureReceipt {
+                    actor: actor__.unwrap_or_default(),
+                    erase_time: erase_time__,
+                    n_revisions: n_revisions__.unwrap_or_default(),
+                    n_sessions: n_sessions__.unwrap_or_default(),
+                    n_takes: n_takes__.unwrap_or_default(),
+                    n_bytes: n_bytes__.unwrap_or_default(),
+                })
+            }
+        }
+        deserializer.deserialize_struct("frontalis.v1.ErasureReceipt", FIELDS, GeneratedVisitor)
+    }
+}
 impl serde::Serialize for ExportActorRequest {
     #[allow(deprecated)]
     fn serialize<S>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error>
@@ -3833,11 +4288,25 @@ impl serde::Serialize for ExportTakeResponse {
         if !self.chunk.is_empty() {
             len += 1;
         }
+        if self.frames_done != 0 {
+            len += 1;
+        }
+        if self.export.is_some() {
+            len += 1;
+        }
         let mut struct_ser = serializer.serialize_struct("frontalis.v1.ExportTakeResponse", len)?;
         if !self.chunk.is_empty() {
             #[allow(clippy::needless_borrow)]
             #[allow(clippy::needless_borrows_for_generic_args)]
             struct_ser.serialize_field("chunk", pbjson::private::base64::encode(&self.chunk).as_str())?;
+        }
+        if self.frames_done != 0 {
+            #[allow(clippy::needless_borrow)]
+            #[allow(clippy::needless_borrows_for_generic_args)]
+            struct_ser.serialize_field("framesDone", ToString::to_string(&self.frames_done).as_str())?;
+        }
+        if let Some(v) = self.export.as_ref() {
+            struct_ser.serialize_field("export", v)?;
         }
         struct_ser.end()
     }
@@ -3850,11 +4319,16 @@ impl<'de> serde::Deserialize<'de> for ExportTakeResponse {
     {
         const FIELDS: &[&str] = &[
             "chunk",
+            "frames_done",
+            "framesDone",
+            "export",
         ];
 
         #[allow(clippy::enum_variant_names)]
         enum GeneratedField {
             Chunk,
+            FramesDone,
+            Export,
         }
         impl<'de> serde::Deserialize<'de> for GeneratedField {
             fn deserialize<D>(deserializer: D) -> std::result::Result<GeneratedField, D::Error>
@@ -3877,6 +4351,8 @@ impl<'de> serde::Deserialize<'de> for ExportTakeResponse {
                     {
                         match value {
                             "chunk" => Ok(GeneratedField::Chunk),
+                            "framesDone" | "frames_done" => Ok(GeneratedField::FramesDone),
+                            "export" => Ok(GeneratedField::Export),
                             _ => Err(serde::de::Error::unknown_field(value, FIELDS)),
                         }
                     }
@@ -3897,6 +4373,8 @@ impl<'de> serde::Deserialize<'de> for ExportTakeResponse {
                     V: serde::de::MapAccess<'de>,
             {
                 let mut chunk__ = None;
+                let mut frames_done__ = None;
+                let mut export__ = None;
                 while let Some(k) = map_.next_key()? {
                     match k {
                         GeneratedField::Chunk => {
@@ -3907,10 +4385,26 @@ impl<'de> serde::Deserialize<'de> for ExportTakeResponse {
                                 Some(map_.next_value::<::pbjson::private::BytesDeserialize<_>>()?.0)
                             ;
                         }
+                        GeneratedField::FramesDone => {
+                            if frames_done__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("framesDone"));
+                            }
+                            frames_done__ = 
+                                Some(map_.next_value::<::pbjson::private::NumberDeserialize<_>>()?.0)
+                            ;
+                        }
+                        GeneratedField::Export => {
+                            if export__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("export"));
+                            }
+                            export__ = map_.next_value()?;
+                        }
                     }
                 }
                 Ok(ExportTakeResponse {
                     chunk: chunk__.unwrap_or_default(),
+                    frames_done: frames_done__.unwrap_or_default(),
+                    export: export__,
                 })
             }
         }
@@ -12484,6 +12978,137 @@ impl<'de> serde::Deserialize<'de> for StartTakeResponse {
         deserializer.deserialize_struct("frontalis.v1.StartTakeResponse", FIELDS, GeneratedVisitor)
     }
 }
+impl serde::Serialize for StateNumbers {
+    #[allow(deprecated)]
+    fn serialize<S>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error>
+    where
+        S: serde::Serializer,
+    {
+        use serde::ser::SerializeStruct;
+        let mut len = 0;
+        if !self.name.is_empty() {
+            len += 1;
+        }
+        if !self.reals.is_empty() {
+            len += 1;
+        }
+        if !self.integers.is_empty() {
+            len += 1;
+        }
+        let mut struct_ser = serializer.serialize_struct("frontalis.v1.StateNumbers", len)?;
+        if !self.name.is_empty() {
+            struct_ser.serialize_field("name", &self.name)?;
+        }
+        if !self.reals.is_empty() {
+            struct_ser.serialize_field("reals", &self.reals)?;
+        }
+        if !self.integers.is_empty() {
+            struct_ser.serialize_field("integers", &self.integers.iter().map(ToString::to_string).collect::<Vec<_>>())?;
+        }
+        struct_ser.end()
+    }
+}
+impl<'de> serde::Deserialize<'de> for StateNumbers {
+    #[allow(deprecated)]
+    fn deserialize<D>(deserializer: D) -> std::result::Result<Self, D::Error>
+    where
+        D: serde::Deserializer<'de>,
+    {
+        const FIELDS: &[&str] = &[
+            "name",
+            "reals",
+            "integers",
+        ];
+
+        #[allow(clippy::enum_variant_names)]
+        enum GeneratedField {
+            Name,
+            Reals,
+            Integers,
+        }
+        impl<'de> serde::Deserialize<'de> for GeneratedField {
+            fn deserialize<D>(deserializer: D) -> std::result::Result<GeneratedField, D::Error>
+            where
+                D: serde::Deserializer<'de>,
+            {
+                struct GeneratedVisitor;
+
+                impl serde::de::Visitor<'_> for GeneratedVisitor {
+                    type Value = GeneratedField;
+
+                    fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                        write!(formatter, "expected one of: {:?}", &FIELDS)
+                    }
+
+                    #[allow(unused_variables)]
+                    fn visit_str<E>(self, value: &str) -> std::result::Result<GeneratedField, E>
+                    where
+                        E: serde::de::Error,
+                    {
+                        match value {
+                            "name" => Ok(GeneratedField::Name),
+                            "reals" => Ok(GeneratedField::Reals),
+                            "integers" => Ok(GeneratedField::Integers),
+                            _ => Err(serde::de::Error::unknown_field(value, FIELDS)),
+                        }
+                    }
+                }
+                deserializer.deserialize_identifier(GeneratedVisitor)
+            }
+        }
+        struct GeneratedVisitor;
+        impl<'de> serde::de::Visitor<'de> for GeneratedVisitor {
+            type Value = StateNumbers;
+
+            fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                formatter.write_str("struct frontalis.v1.StateNumbers")
+            }
+
+            fn visit_map<V>(self, mut map_: V) -> std::result::Result<StateNumbers, V::Error>
+                where
+                    V: serde::de::MapAccess<'de>,
+            {
+                let mut name__ = None;
+                let mut reals__ = None;
+                let mut integers__ = None;
+                while let Some(k) = map_.next_key()? {
+                    match k {
+                        GeneratedField::Name => {
+                            if name__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("name"));
+                            }
+                            name__ = Some(map_.next_value()?);
+                        }
+                        GeneratedField::Reals => {
+                            if reals__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("reals"));
+                            }
+                            reals__ = 
+                                Some(map_.next_value::<Vec<::pbjson::private::NumberDeserialize<_>>>()?
+                                    .into_iter().map(|x| x.0).collect())
+                            ;
+                        }
+                        GeneratedField::Integers => {
+                            if integers__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("integers"));
+                            }
+                            integers__ = 
+                                Some(map_.next_value::<Vec<::pbjson::private::NumberDeserialize<_>>>()?
+                                    .into_iter().map(|x| x.0).collect())
+                            ;
+                        }
+                    }
+                }
+                Ok(StateNumbers {
+                    name: name__.unwrap_or_default(),
+                    reals: reals__.unwrap_or_default(),
+                    integers: integers__.unwrap_or_default(),
+                })
+            }
+        }
+        deserializer.deserialize_struct("frontalis.v1.StateNumbers", FIELDS, GeneratedVisitor)
+    }
+}
 impl serde::Serialize for StopTakeRequest {
     #[allow(deprecated)]
     fn serialize<S>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error>
@@ -13595,6 +14220,9 @@ impl serde::Serialize for Take {
         if self.with_images {
             len += 1;
         }
+        if !self.resolved_from.is_empty() {
+            len += 1;
+        }
         let mut struct_ser = serializer.serialize_struct("frontalis.v1.Take", len)?;
         if !self.name.is_empty() {
             struct_ser.serialize_field("name", &self.name)?;
@@ -13663,6 +14291,9 @@ impl serde::Serialize for Take {
         if self.with_images {
             struct_ser.serialize_field("withImages", &self.with_images)?;
         }
+        if !self.resolved_from.is_empty() {
+            struct_ser.serialize_field("resolvedFrom", &self.resolved_from)?;
+        }
         struct_ser.end()
     }
 }
@@ -13701,6 +14332,8 @@ impl<'de> serde::Deserialize<'de> for Take {
             "notes",
             "with_images",
             "withImages",
+            "resolved_from",
+            "resolvedFrom",
         ];
 
         #[allow(clippy::enum_variant_names)]
@@ -13724,6 +14357,7 @@ impl<'de> serde::Deserialize<'de> for Take {
             Circled,
             Notes,
             WithImages,
+            ResolvedFrom,
         }
         impl<'de> serde::Deserialize<'de> for GeneratedField {
             fn deserialize<D>(deserializer: D) -> std::result::Result<GeneratedField, D::Error>
@@ -13764,6 +14398,7 @@ impl<'de> serde::Deserialize<'de> for Take {
                             "circled" => Ok(GeneratedField::Circled),
                             "notes" => Ok(GeneratedField::Notes),
                             "withImages" | "with_images" => Ok(GeneratedField::WithImages),
+                            "resolvedFrom" | "resolved_from" => Ok(GeneratedField::ResolvedFrom),
                             _ => Err(serde::de::Error::unknown_field(value, FIELDS)),
                         }
                     }
@@ -13802,6 +14437,7 @@ impl<'de> serde::Deserialize<'de> for Take {
                 let mut circled__ = None;
                 let mut notes__ = None;
                 let mut with_images__ = None;
+                let mut resolved_from__ = None;
                 while let Some(k) = map_.next_key()? {
                     match k {
                         GeneratedField::Name => {
@@ -13930,6 +14566,12 @@ impl<'de> serde::Deserialize<'de> for Take {
                             }
                             with_images__ = Some(map_.next_value()?);
                         }
+                        GeneratedField::ResolvedFrom => {
+                            if resolved_from__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("resolvedFrom"));
+                            }
+                            resolved_from__ = Some(map_.next_value()?);
+                        }
                     }
                 }
                 Ok(Take {
@@ -13952,6 +14594,7 @@ impl<'de> serde::Deserialize<'de> for Take {
                     circled: circled__.unwrap_or_default(),
                     notes: notes__.unwrap_or_default(),
                     with_images: with_images__.unwrap_or_default(),
+                    resolved_from: resolved_from__.unwrap_or_default(),
                 })
             }
         }
@@ -14218,6 +14861,141 @@ impl<'de> serde::Deserialize<'de> for TakeChange {
         deserializer.deserialize_struct("frontalis.v1.TakeChange", FIELDS, GeneratedVisitor)
     }
 }
+impl serde::Serialize for TakeClock {
+    #[allow(deprecated)]
+    fn serialize<S>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error>
+    where
+        S: serde::Serializer,
+    {
+        use serde::ser::SerializeStruct;
+        let mut len = 0;
+        if self.clock.is_some() {
+            len += 1;
+        }
+        if self.server_time_nanos != 0 {
+            len += 1;
+        }
+        if self.unix_offset_nanos != 0 {
+            len += 1;
+        }
+        let mut struct_ser = serializer.serialize_struct("frontalis.v1.TakeClock", len)?;
+        if let Some(v) = self.clock.as_ref() {
+            struct_ser.serialize_field("clock", v)?;
+        }
+        if self.server_time_nanos != 0 {
+            #[allow(clippy::needless_borrow)]
+            #[allow(clippy::needless_borrows_for_generic_args)]
+            struct_ser.serialize_field("serverTimeNanos", ToString::to_string(&self.server_time_nanos).as_str())?;
+        }
+        if self.unix_offset_nanos != 0 {
+            #[allow(clippy::needless_borrow)]
+            #[allow(clippy::needless_borrows_for_generic_args)]
+            struct_ser.serialize_field("unixOffsetNanos", ToString::to_string(&self.unix_offset_nanos).as_str())?;
+        }
+        struct_ser.end()
+    }
+}
+impl<'de> serde::Deserialize<'de> for TakeClock {
+    #[allow(deprecated)]
+    fn deserialize<D>(deserializer: D) -> std::result::Result<Self, D::Error>
+    where
+        D: serde::Deserializer<'de>,
+    {
+        const FIELDS: &[&str] = &[
+            "clock",
+            "server_time_nanos",
+            "serverTimeNanos",
+            "unix_offset_nanos",
+            "unixOffsetNanos",
+        ];
+
+        #[allow(clippy::enum_variant_names)]
+        enum GeneratedField {
+            Clock,
+            ServerTimeNanos,
+            UnixOffsetNanos,
+        }
+        impl<'de> serde::Deserialize<'de> for GeneratedField {
+            fn deserialize<D>(deserializer: D) -> std::result::Result<GeneratedField, D::Error>
+            where
+                D: serde::Deserializer<'de>,
+            {
+                struct GeneratedVisitor;
+
+                impl serde::de::Visitor<'_> for GeneratedVisitor {
+                    type Value = GeneratedField;
+
+                    fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                        write!(formatter, "expected one of: {:?}", &FIELDS)
+                    }
+
+                    #[allow(unused_variables)]
+                    fn visit_str<E>(self, value: &str) -> std::result::Result<GeneratedField, E>
+                    where
+                        E: serde::de::Error,
+                    {
+                        match value {
+                            "clock" => Ok(GeneratedField::Clock),
+                            "serverTimeNanos" | "server_time_nanos" => Ok(GeneratedField::ServerTimeNanos),
+                            "unixOffsetNanos" | "unix_offset_nanos" => Ok(GeneratedField::UnixOffsetNanos),
+                            _ => Err(serde::de::Error::unknown_field(value, FIELDS)),
+                        }
+                    }
+                }
+                deserializer.deserialize_identifier(GeneratedVisitor)
+            }
+        }
+        struct GeneratedVisitor;
+        impl<'de> serde::de::Visitor<'de> for GeneratedVisitor {
+            type Value = TakeClock;
+
+            fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                formatter.write_str("struct frontalis.v1.TakeClock")
+            }
+
+            fn visit_map<V>(self, mut map_: V) -> std::result::Result<TakeClock, V::Error>
+                where
+                    V: serde::de::MapAccess<'de>,
+            {
+                let mut clock__ = None;
+                let mut server_time_nanos__ = None;
+                let mut unix_offset_nanos__ = None;
+                while let Some(k) = map_.next_key()? {
+                    match k {
+                        GeneratedField::Clock => {
+                            if clock__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("clock"));
+                            }
+                            clock__ = map_.next_value()?;
+                        }
+                        GeneratedField::ServerTimeNanos => {
+                            if server_time_nanos__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("serverTimeNanos"));
+                            }
+                            server_time_nanos__ = 
+                                Some(map_.next_value::<::pbjson::private::NumberDeserialize<_>>()?.0)
+                            ;
+                        }
+                        GeneratedField::UnixOffsetNanos => {
+                            if unix_offset_nanos__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("unixOffsetNanos"));
+                            }
+                            unix_offset_nanos__ = 
+                                Some(map_.next_value::<::pbjson::private::NumberDeserialize<_>>()?.0)
+                            ;
+                        }
+                    }
+                }
+                Ok(TakeClock {
+                    clock: clock__,
+                    server_time_nanos: server_time_nanos__.unwrap_or_default(),
+                    unix_offset_nanos: unix_offset_nanos__.unwrap_or_default(),
+                })
+            }
+        }
+        deserializer.deserialize_struct("frontalis.v1.TakeClock", FIELDS, GeneratedVisitor)
+    }
+}
 impl serde::Serialize for TakeCut {
     #[allow(deprecated)]
     fn serialize<S>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error>
@@ -14355,6 +15133,12 @@ impl serde::Serialize for TakeEvent {
                 take_event::Event::Cut(v) => {
                     struct_ser.serialize_field("cut", v)?;
                 }
+                take_event::Event::AnalysisState(v) => {
+                    struct_ser.serialize_field("analysisState", v)?;
+                }
+                take_event::Event::Clock(v) => {
+                    struct_ser.serialize_field("clock", v)?;
+                }
             }
         }
         struct_ser.end()
@@ -14376,6 +15160,9 @@ impl<'de> serde::Deserialize<'de> for TakeEvent {
             "alignment",
             "stop",
             "cut",
+            "analysis_state",
+            "analysisState",
+            "clock",
         ];
 
         #[allow(clippy::enum_variant_names)]
@@ -14389,6 +15176,8 @@ impl<'de> serde::Deserialize<'de> for TakeEvent {
             Alignment,
             Stop,
             Cut,
+            AnalysisState,
+            Clock,
         }
         impl<'de> serde::Deserialize<'de> for GeneratedField {
             fn deserialize<D>(deserializer: D) -> std::result::Result<GeneratedField, D::Error>
@@ -14419,6 +15208,8 @@ impl<'de> serde::Deserialize<'de> for TakeEvent {
                             "alignment" => Ok(GeneratedField::Alignment),
                             "stop" => Ok(GeneratedField::Stop),
                             "cut" => Ok(GeneratedField::Cut),
+                            "analysisState" | "analysis_state" => Ok(GeneratedField::AnalysisState),
+                            "clock" => Ok(GeneratedField::Clock),
                             _ => Err(serde::de::Error::unknown_field(value, FIELDS)),
                         }
                     }
@@ -14504,6 +15295,20 @@ impl<'de> serde::Deserialize<'de> for TakeEvent {
                             event__ = map_.next_value::<::std::option::Option<_>>()?.map(take_event::Event::Cut)
 ;
                         }
+                        GeneratedField::AnalysisState => {
+                            if event__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("analysisState"));
+                            }
+                            event__ = map_.next_value::<::std::option::Option<_>>()?.map(take_event::Event::AnalysisState)
+;
+                        }
+                        GeneratedField::Clock => {
+                            if event__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("clock"));
+                            }
+                            event__ = map_.next_value::<::std::option::Option<_>>()?.map(take_event::Event::Clock)
+;
+                        }
                     }
                 }
                 Ok(TakeEvent {
@@ -14512,6 +15317,341 @@ impl<'de> serde::Deserialize<'de> for TakeEvent {
             }
         }
         deserializer.deserialize_struct("frontalis.v1.TakeEvent", FIELDS, GeneratedVisitor)
+    }
+}
+impl serde::Serialize for TakeExport {
+    #[allow(deprecated)]
+    fn serialize<S>(&self, serializer: S) -> std::result::Result<S::Ok, S::Error>
+    where
+        S: serde::Serializer,
+    {
+        use serde::ser::SerializeStruct;
+        let mut len = 0;
+        if self.format != 0 {
+            len += 1;
+        }
+        if !self.file_name.is_empty() {
+            len += 1;
+        }
+        if self.first_frame != 0 {
+            len += 1;
+        }
+        if self.last_frame != 0 {
+            len += 1;
+        }
+        if self.n_frames != 0 {
+            len += 1;
+        }
+        if self.n_gaps != 0 {
+            len += 1;
+        }
+        if self.n_missing_frames != 0 {
+            len += 1;
+        }
+        if !self.gaps.is_empty() {
+            len += 1;
+        }
+        if self.n_dropped_frames != 0 {
+            len += 1;
+        }
+        if self.start_timecode.is_some() {
+            len += 1;
+        }
+        if self.n_bytes != 0 {
+            len += 1;
+        }
+        if !self.sha256.is_empty() {
+            len += 1;
+        }
+        if !self.undriven_shapes.is_empty() {
+            len += 1;
+        }
+        let mut struct_ser = serializer.serialize_struct("frontalis.v1.TakeExport", len)?;
+        if self.format != 0 {
+            let v = TakeFormat::try_from(self.format)
+                .map_err(|_| serde::ser::Error::custom(format!("Invalid variant {}", self.format)))?;
+            struct_ser.serialize_field("format", &v)?;
+        }
+        if !self.file_name.is_empty() {
+            struct_ser.serialize_field("fileName", &self.file_name)?;
+        }
+        if self.first_frame != 0 {
+            #[allow(clippy::needless_borrow)]
+            #[allow(clippy::needless_borrows_for_generic_args)]
+            struct_ser.serialize_field("firstFrame", ToString::to_string(&self.first_frame).as_str())?;
+        }
+        if self.last_frame != 0 {
+            #[allow(clippy::needless_borrow)]
+            #[allow(clippy::needless_borrows_for_generic_args)]
+            struct_ser.serialize_field("lastFrame", ToString::to_string(&self.last_frame).as_str())?;
+        }
+        if self.n_frames != 0 {
+            #[allow(clippy::needless_borrow)]
+            #[allow(clippy::needless_borrows_for_generic_args)]
+            struct_ser.serialize_field("nFrames", ToString::to_string(&self.n_frames).as_str())?;
+        }
+        if self.n_gaps != 0 {
+            #[allow(clippy::needless_borrow)]
+            #[allow(clippy::needless_borrows_for_generic_args)]
+            struct_ser.serialize_field("nGaps", ToString::to_string(&self.n_gaps).as_str())?;
+        }
+        if self.n_missing_frames != 0 {
+            #[allow(clippy::needless_borrow)]
+            #[allow(clippy::needless_borrows_for_generic_args)]
+            struct_ser.serialize_field("nMissingFrames", ToString::to_string(&self.n_missing_frames).as_str())?;
+        }
+        if !self.gaps.is_empty() {
+            struct_ser.serialize_field("gaps", &self.gaps)?;
+        }
+        if self.n_dropped_frames != 0 {
+            #[allow(clippy::needless_borrow)]
+            #[allow(clippy::needless_borrows_for_generic_args)]
+            struct_ser.serialize_field("nDroppedFrames", ToString::to_string(&self.n_dropped_frames).as_str())?;
+        }
+        if let Some(v) = self.start_timecode.as_ref() {
+            struct_ser.serialize_field("startTimecode", v)?;
+        }
+        if self.n_bytes != 0 {
+            #[allow(clippy::needless_borrow)]
+            #[allow(clippy::needless_borrows_for_generic_args)]
+            struct_ser.serialize_field("nBytes", ToString::to_string(&self.n_bytes).as_str())?;
+        }
+        if !self.sha256.is_empty() {
+            struct_ser.serialize_field("sha256", &self.sha256)?;
+        }
+        if !self.undriven_shapes.is_empty() {
+            struct_ser.serialize_field("undrivenShapes", &self.undriven_shapes)?;
+        }
+        struct_ser.end()
+    }
+}
+impl<'de> serde::Deserialize<'de> for TakeExport {
+    #[allow(deprecated)]
+    fn deserialize<D>(deserializer: D) -> std::result::Result<Self, D::Error>
+    where
+        D: serde::Deserializer<'de>,
+    {
+        const FIELDS: &[&str] = &[
+            "format",
+            "file_name",
+            "fileName",
+            "first_frame",
+            "firstFrame",
+            "last_frame",
+            "lastFrame",
+            "n_frames",
+            "nFrames",
+            "n_gaps",
+            "nGaps",
+            "n_missing_frames",
+            "nMissingFrames",
+            "gaps",
+            "n_dropped_frames",
+            "nDroppedFrames",
+            "start_timecode",
+            "startTimecode",
+            "n_bytes",
+            "nBytes",
+            "sha256",
+            "undriven_shapes",
+            "undrivenShapes",
+        ];
+
+        #[allow(clippy::enum_variant_names)]
+        enum GeneratedField {
+            Format,
+            FileName,
+            FirstFrame,
+            LastFrame,
+            NFrames,
+            NGaps,
+            NMissingFrames,
+            Gaps,
+            NDroppedFrames,
+            StartTimecode,
+            NBytes,
+            Sha256,
+            UndrivenShapes,
+        }
+        impl<'de> serde::Deserialize<'de> for GeneratedField {
+            fn deserialize<D>(deserializer: D) -> std::result::Result<GeneratedField, D::Error>
+            where
+                D: serde::Deserializer<'de>,
+            {
+                struct GeneratedVisitor;
+
+                impl serde::de::Visitor<'_> for GeneratedVisitor {
+                    type Value = GeneratedField;
+
+                    fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                        write!(formatter, "expected one of: {:?}", &FIELDS)
+                    }
+
+                    #[allow(unused_variables)]
+                    fn visit_str<E>(self, value: &str) -> std::result::Result<GeneratedField, E>
+                    where
+                        E: serde::de::Error,
+                    {
+                        match value {
+                            "format" => Ok(GeneratedField::Format),
+                            "fileName" | "file_name" => Ok(GeneratedField::FileName),
+                            "firstFrame" | "first_frame" => Ok(GeneratedField::FirstFrame),
+                            "lastFrame" | "last_frame" => Ok(GeneratedField::LastFrame),
+                            "nFrames" | "n_frames" => Ok(GeneratedField::NFrames),
+                            "nGaps" | "n_gaps" => Ok(GeneratedField::NGaps),
+                            "nMissingFrames" | "n_missing_frames" => Ok(GeneratedField::NMissingFrames),
+                            "gaps" => Ok(GeneratedField::Gaps),
+                            "nDroppedFrames" | "n_dropped_frames" => Ok(GeneratedField::NDroppedFrames),
+                            "startTimecode" | "start_timecode" => Ok(GeneratedField::StartTimecode),
+                            "nBytes" | "n_bytes" => Ok(GeneratedField::NBytes),
+                            "sha256" => Ok(GeneratedField::Sha256),
+                            "undrivenShapes" | "undriven_shapes" => Ok(GeneratedField::UndrivenShapes),
+                            _ => Err(serde::de::Error::unknown_field(value, FIELDS)),
+                        }
+                    }
+                }
+                deserializer.deserialize_identifier(GeneratedVisitor)
+            }
+        }
+        struct GeneratedVisitor;
+        impl<'de> serde::de::Visitor<'de> for GeneratedVisitor {
+            type Value = TakeExport;
+
+            fn expecting(&self, formatter: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+                formatter.write_str("struct frontalis.v1.TakeExport")
+            }
+
+            fn visit_map<V>(self, mut map_: V) -> std::result::Result<TakeExport, V::Error>
+                where
+                    V: serde::de::MapAccess<'de>,
+            {
+                let mut format__ = None;
+                let mut file_name__ = None;
+                let mut first_frame__ = None;
+                let mut last_frame__ = None;
+                let mut n_frames__ = None;
+                let mut n_gaps__ = None;
+                let mut n_missing_frames__ = None;
+                let mut gaps__ = None;
+                let mut n_dropped_frames__ = None;
+                let mut start_timecode__ = None;
+                let mut n_bytes__ = None;
+                let mut sha256__ = None;
+                let mut undriven_shapes__ = None;
+                while let Some(k) = map_.next_key()? {
+                    match k {
+                        GeneratedField::Format => {
+                            if format__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("format"));
+                            }
+                            format__ = Some(map_.next_value::<TakeFormat>()? as i32);
+                        }
+                        GeneratedField::FileName => {
+                            if file_name__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("fileName"));
+                            }
+                            file_name__ = Some(map_.next_value()?);
+                        }
+                        GeneratedField::FirstFrame => {
+                            if first_frame__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("firstFrame"));
+                            }
+                            first_frame__ = 
+                                Some(map_.next_value::<::pbjson::private::NumberDeserialize<_>>()?.0)
+                            ;
+                        }
+                        GeneratedField::LastFrame => {
+                            if last_frame__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("lastFrame"));
+                            }
+                            last_frame__ = 
+                                Some(map_.next_value::<::pbjson::private::NumberDeserialize<_>>()?.0)
+                            ;
+                        }
+                        GeneratedField::NFrames => {
+                            if n_frames__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("nFrames"));
+                            }
+                            n_frames__ = 
+                                Some(map_.next_value::<::pbjson::private::NumberDeserialize<_>>()?.0)
+                            ;
+                        }
+                        GeneratedField::NGaps => {
+                            if n_gaps__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("nGaps"));
+                            }
+                            n_gaps__ = 
+                                Some(map_.next_value::<::pbjson::private::NumberDeserialize<_>>()?.0)
+                            ;
+                        }
+                        GeneratedField::NMissingFrames => {
+                            if n_missing_frames__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("nMissingFrames"));
+                            }
+                            n_missing_frames__ = 
+                                Some(map_.next_value::<::pbjson::private::NumberDeserialize<_>>()?.0)
+                            ;
+                        }
+                        GeneratedField::Gaps => {
+                            if gaps__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("gaps"));
+                            }
+                            gaps__ = Some(map_.next_value()?);
+                        }
+                        GeneratedField::NDroppedFrames => {
+                            if n_dropped_frames__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("nDroppedFrames"));
+                            }
+                            n_dropped_frames__ = 
+                                Some(map_.next_value::<::pbjson::private::NumberDeserialize<_>>()?.0)
+                            ;
+                        }
+                        GeneratedField::StartTimecode => {
+                            if start_timecode__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("startTimecode"));
+                            }
+                            start_timecode__ = map_.next_value()?;
+                        }
+                        GeneratedField::NBytes => {
+                            if n_bytes__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("nBytes"));
+                            }
+                            n_bytes__ = 
+                                Some(map_.next_value::<::pbjson::private::NumberDeserialize<_>>()?.0)
+                            ;
+                        }
+                        GeneratedField::Sha256 => {
+                            if sha256__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("sha256"));
+                            }
+                            sha256__ = Some(map_.next_value()?);
+                        }
+                        GeneratedField::UndrivenShapes => {
+                            if undriven_shapes__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("undrivenShapes"));
+                            }
+                            undriven_shapes__ = Some(map_.next_value()?);
+                        }
+                    }
+                }
+                Ok(TakeExport {
+                    format: format__.unwrap_or_default(),
+                    file_name: file_name__.unwrap_or_default(),
+                    first_frame: first_frame__.unwrap_or_default(),
+                    last_frame: last_frame__.unwrap_or_default(),
+                    n_frames: n_frames__.unwrap_or_default(),
+                    n_gaps: n_gaps__.unwrap_or_default(),
+                    n_missing_frames: n_missing_frames__.unwrap_or_default(),
+                    gaps: gaps__.unwrap_or_default(),
+                    n_dropped_frames: n_dropped_frames__.unwrap_or_default(),
+                    start_timecode: start_timecode__,
+                    n_bytes: n_bytes__.unwrap_or_default(),
+                    sha256: sha256__.unwrap_or_default(),
+                    undriven_shapes: undriven_shapes__.unwrap_or_default(),
+                })
+            }
+        }
+        deserializer.deserialize_struct("frontalis.v1.TakeExport", FIELDS, GeneratedVisitor)
     }
 }
 impl serde::Serialize for TakeFormat {
@@ -14656,6 +15796,18 @@ impl serde::Serialize for TakeHeader {
         if self.next_frame != 0 {
             len += 1;
         }
+        if !self.resolved_from.is_empty() {
+            len += 1;
+        }
+        if self.pre_roll_from != 0 {
+            len += 1;
+        }
+        if self.last_capture_time_nanos.is_some() {
+            len += 1;
+        }
+        if self.with_images {
+            len += 1;
+        }
         let mut struct_ser = serializer.serialize_struct("frontalis.v1.TakeHeader", len)?;
         if !self.take.is_empty() {
             struct_ser.serialize_field("take", &self.take)?;
@@ -14711,6 +15863,22 @@ impl serde::Serialize for TakeHeader {
             #[allow(clippy::needless_borrows_for_generic_args)]
             struct_ser.serialize_field("nextFrame", ToString::to_string(&self.next_frame).as_str())?;
         }
+        if !self.resolved_from.is_empty() {
+            struct_ser.serialize_field("resolvedFrom", &self.resolved_from)?;
+        }
+        if self.pre_roll_from != 0 {
+            #[allow(clippy::needless_borrow)]
+            #[allow(clippy::needless_borrows_for_generic_args)]
+            struct_ser.serialize_field("preRollFrom", ToString::to_string(&self.pre_roll_from).as_str())?;
+        }
+        if let Some(v) = self.last_capture_time_nanos.as_ref() {
+            #[allow(clippy::needless_borrow)]
+            #[allow(clippy::needless_borrows_for_generic_args)]
+            struct_ser.serialize_field("lastCaptureTimeNanos", ToString::to_string(&v).as_str())?;
+        }
+        if self.with_images {
+            struct_ser.serialize_field("withImages", &self.with_images)?;
+        }
         struct_ser.end()
     }
 }
@@ -14743,6 +15911,14 @@ impl<'de> serde::Deserialize<'de> for TakeHeader {
             "serverVersion",
             "next_frame",
             "nextFrame",
+            "resolved_from",
+            "resolvedFrom",
+            "pre_roll_from",
+            "preRollFrom",
+            "last_capture_time_nanos",
+            "lastCaptureTimeNanos",
+            "with_images",
+            "withImages",
         ];
 
         #[allow(clippy::enum_variant_names)]
@@ -14763,6 +15939,10 @@ impl<'de> serde::Deserialize<'de> for TakeHeader {
             NextSequence,
             ServerVersion,
             NextFrame,
+            ResolvedFrom,
+            PreRollFrom,
+            LastCaptureTimeNanos,
+            WithImages,
         }
         impl<'de> serde::Deserialize<'de> for GeneratedField {
             fn deserialize<D>(deserializer: D) -> std::result::Result<GeneratedField, D::Error>
@@ -14800,6 +15980,10 @@ impl<'de> serde::Deserialize<'de> for TakeHeader {
                             "nextSequence" | "next_sequence" => Ok(GeneratedField::NextSequence),
                             "serverVersion" | "server_version" => Ok(GeneratedField::ServerVersion),
                             "nextFrame" | "next_frame" => Ok(GeneratedField::NextFrame),
+                            "resolvedFrom" | "resolved_from" => Ok(GeneratedField::ResolvedFrom),
+                            "preRollFrom" | "pre_roll_from" => Ok(GeneratedField::PreRollFrom),
+                            "lastCaptureTimeNanos" | "last_capture_time_nanos" => Ok(GeneratedField::LastCaptureTimeNanos),
+                            "withImages" | "with_images" => Ok(GeneratedField::WithImages),
                             _ => Err(serde::de::Error::unknown_field(value, FIELDS)),
                         }
                     }
@@ -14835,6 +16019,10 @@ impl<'de> serde::Deserialize<'de> for TakeHeader {
                 let mut next_sequence__ = None;
                 let mut server_version__ = None;
                 let mut next_frame__ = None;
+                let mut resolved_from__ = None;
+                let mut pre_roll_from__ = None;
+                let mut last_capture_time_nanos__ = None;
+                let mut with_images__ = None;
                 while let Some(k) = map_.next_key()? {
                     match k {
                         GeneratedField::Take => {
@@ -14943,6 +16131,34 @@ impl<'de> serde::Deserialize<'de> for TakeHeader {
                                 Some(map_.next_value::<::pbjson::private::NumberDeserialize<_>>()?.0)
                             ;
                         }
+                        GeneratedField::ResolvedFrom => {
+                            if resolved_from__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("resolvedFrom"));
+                            }
+                            resolved_from__ = Some(map_.next_value()?);
+                        }
+                        GeneratedField::PreRollFrom => {
+                            if pre_roll_from__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("preRollFrom"));
+                            }
+                            pre_roll_from__ = 
+                                Some(map_.next_value::<::pbjson::private::NumberDeserialize<_>>()?.0)
+                            ;
+                        }
+                        GeneratedField::LastCaptureTimeNanos => {
+                            if last_capture_time_nanos__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("lastCaptureTimeNanos"));
+                            }
+                            last_capture_time_nanos__ = 
+                                map_.next_value::<::std::option::Option<::pbjson::private::NumberDeserialize<_>>>()?.map(|x| x.0)
+                            ;
+                        }
+                        GeneratedField::WithImages => {
+                            if with_images__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("withImages"));
+                            }
+                            with_images__ = Some(map_.next_value()?);
+                        }
                     }
                 }
                 Ok(TakeHeader {
@@ -14962,6 +16178,10 @@ impl<'de> serde::Deserialize<'de> for TakeHeader {
                     next_sequence: next_sequence__.unwrap_or_default(),
                     server_version: server_version__.unwrap_or_default(),
                     next_frame: next_frame__.unwrap_or_default(),
+                    resolved_from: resolved_from__.unwrap_or_default(),
+                    pre_roll_from: pre_roll_from__.unwrap_or_default(),
+                    last_capture_time_nanos: last_capture_time_nanos__,
+                    with_images: with_images__.unwrap_or_default(),
                 })
             }
         }
@@ -15084,6 +16304,12 @@ impl serde::Serialize for TakeSource {
         if self.rate_hz != 0. {
             len += 1;
         }
+        if self.continued {
+            len += 1;
+        }
+        if self.is_other {
+            len += 1;
+        }
         let mut struct_ser = serializer.serialize_struct("frontalis.v1.TakeSource", len)?;
         if !self.publisher.is_empty() {
             struct_ser.serialize_field("publisher", &self.publisher)?;
@@ -15104,6 +16330,12 @@ impl serde::Serialize for TakeSource {
         if self.rate_hz != 0. {
             struct_ser.serialize_field("rateHz", &self.rate_hz)?;
         }
+        if self.continued {
+            struct_ser.serialize_field("continued", &self.continued)?;
+        }
+        if self.is_other {
+            struct_ser.serialize_field("isOther", &self.is_other)?;
+        }
         struct_ser.end()
     }
 }
@@ -15121,6 +16353,9 @@ impl<'de> serde::Deserialize<'de> for TakeSource {
             "markerNames",
             "rate_hz",
             "rateHz",
+            "continued",
+            "is_other",
+            "isOther",
         ];
 
         #[allow(clippy::enum_variant_names)]
@@ -15130,6 +16365,8 @@ impl<'de> serde::Deserialize<'de> for TakeSource {
             Unit,
             MarkerNames,
             RateHz,
+            Continued,
+            IsOther,
         }
         impl<'de> serde::Deserialize<'de> for GeneratedField {
             fn deserialize<D>(deserializer: D) -> std::result::Result<GeneratedField, D::Error>
@@ -15156,6 +16393,8 @@ impl<'de> serde::Deserialize<'de> for TakeSource {
                             "unit" => Ok(GeneratedField::Unit),
                             "markerNames" | "marker_names" => Ok(GeneratedField::MarkerNames),
                             "rateHz" | "rate_hz" => Ok(GeneratedField::RateHz),
+                            "continued" => Ok(GeneratedField::Continued),
+                            "isOther" | "is_other" => Ok(GeneratedField::IsOther),
                             _ => Err(serde::de::Error::unknown_field(value, FIELDS)),
                         }
                     }
@@ -15180,6 +16419,8 @@ impl<'de> serde::Deserialize<'de> for TakeSource {
                 let mut unit__ = None;
                 let mut marker_names__ = None;
                 let mut rate_hz__ = None;
+                let mut continued__ = None;
+                let mut is_other__ = None;
                 while let Some(k) = map_.next_key()? {
                     match k {
                         GeneratedField::Publisher => {
@@ -15216,6 +16457,18 @@ impl<'de> serde::Deserialize<'de> for TakeSource {
                                 Some(map_.next_value::<::pbjson::private::NumberDeserialize<_>>()?.0)
                             ;
                         }
+                        GeneratedField::Continued => {
+                            if continued__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("continued"));
+                            }
+                            continued__ = Some(map_.next_value()?);
+                        }
+                        GeneratedField::IsOther => {
+                            if is_other__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("isOther"));
+                            }
+                            is_other__ = Some(map_.next_value()?);
+                        }
                     }
                 }
                 Ok(TakeSource {
@@ -15224,6 +16477,8 @@ impl<'de> serde::Deserialize<'de> for TakeSource {
                     unit: unit__.unwrap_or_default(),
                     marker_names: marker_names__.unwrap_or_default(),
                     rate_hz: rate_hz__.unwrap_or_default(),
+                    continued: continued__.unwrap_or_default(),
+                    is_other: is_other__.unwrap_or_default(),
                 })
             }
         }
@@ -15243,6 +16498,7 @@ impl serde::Serialize for TakeState {
             Self::Degraded => "TAKE_STATE_DEGRADED",
             Self::TruncatedDiskFull => "TAKE_STATE_TRUNCATED_DISK_FULL",
             Self::Quarantined => "TAKE_STATE_QUARANTINED",
+            Self::Recovering => "TAKE_STATE_RECOVERING",
         };
         serializer.serialize_str(variant)
     }
@@ -15260,6 +16516,7 @@ impl<'de> serde::Deserialize<'de> for TakeState {
             "TAKE_STATE_DEGRADED",
             "TAKE_STATE_TRUNCATED_DISK_FULL",
             "TAKE_STATE_QUARANTINED",
+            "TAKE_STATE_RECOVERING",
         ];
 
         struct GeneratedVisitor;
@@ -15306,6 +16563,7 @@ impl<'de> serde::Deserialize<'de> for TakeState {
                     "TAKE_STATE_DEGRADED" => Ok(TakeState::Degraded),
                     "TAKE_STATE_TRUNCATED_DISK_FULL" => Ok(TakeState::TruncatedDiskFull),
                     "TAKE_STATE_QUARANTINED" => Ok(TakeState::Quarantined),
+                    "TAKE_STATE_RECOVERING" => Ok(TakeState::Recovering),
                     _ => Err(serde::de::Error::unknown_variant(value, FIELDS)),
                 }
             }

@@ -7,20 +7,29 @@ use crate::name::ActorId;
 
 const NEWEST: &str = "SELECT a.id, r.revision, a.create_time_nanos, r.summary
     FROM actors a JOIN revisions r ON r.actor = a.id
-    WHERE r.revision = (SELECT MAX(revision) FROM revisions WHERE actor = a.id)";
+    WHERE r.revision = (SELECT MAX(revision) FROM revisions WHERE actor = a.id)
+    AND a.id NOT IN (SELECT id FROM doomed_actors)";
 
 impl Catalogue {
     /// Adds a revision: the first of a new actor, or the next of an existing one with the same muscles and markers.
     ///
     /// # Errors
     ///
-    /// [`CatalogueError::LayoutChanged`], or that the disk failed; then nothing has changed.
+    /// [`CatalogueError::LayoutChanged`], [`CatalogueError::BeingErased`], or that the disk failed; then nothing has changed.
     pub fn add_revision(
         &self,
         new: &NewRevision,
         now_nanos: i64,
     ) -> Result<ActorRevision, CatalogueError> {
         let mut connection = self.connection();
+        let is_doomed: bool = connection.query_row(
+            "SELECT EXISTS (SELECT 1 FROM doomed_actors WHERE id = ?1)",
+            [new.actor.as_str()],
+            |row| row.get(0),
+        )?;
+        if is_doomed {
+            return Err(CatalogueError::BeingErased);
+        }
         if let Some(newest) = newest(&connection, &new.actor)? {
             new.layout.check_same(&newest.layout, newest.revision)?;
         }
@@ -89,30 +98,15 @@ impl Catalogue {
         Ok((bytes, Layout::from_text(&summary)?.regularized))
     }
 
-    /// Erases an actor, its revisions and its packages.
-    ///
-    /// With `with_sessions`, sessions that have ended and still name it are erased too.
+    /// Erases an actor, its revisions and its packages; what was recorded of it stays.
     ///
     /// # Errors
     ///
     /// [`CatalogueError::NoActor`], [`CatalogueError::ActorInUse`], or that the disk failed.
-    pub fn delete_actor(&self, id: &ActorId, with_sessions: bool) -> Result<(), CatalogueError> {
+    pub fn delete_actor(&self, id: &ActorId) -> Result<(), CatalogueError> {
         let mut connection = self.connection();
         let change = connection.transaction_with_behavior(TransactionBehavior::Immediate)?;
-        let n_sessions: i64 = change.query_row(
-            "SELECT COUNT(*) FROM sessions WHERE actor = ?1 AND end_time_nanos IS NULL",
-            [id.as_str()],
-            |row| row.get(0),
-        )?;
-        if n_sessions > 0 {
-            return Err(CatalogueError::ActorInUse {
-                n_sessions: n_sessions.unsigned_abs(),
-            });
-        }
-        if with_sessions {
-            super::sessions::remember_counters(&change, "actor = ?1", &[id.as_str()])?;
-            change.execute("DELETE FROM sessions WHERE actor = ?1", [id.as_str()])?;
-        }
+        check_unused(&change, id)?;
         let files: Vec<String> = change
             .prepare("SELECT package FROM revisions WHERE actor = ?1")?
             .query_map([id.as_str()], |row| row.get(0))?
@@ -125,6 +119,21 @@ impl Catalogue {
         self.remove_packages(&files);
         Ok(())
     }
+}
+
+/// Whether every session of an actor has ended.
+pub(super) fn check_unused(connection: &Connection, id: &ActorId) -> Result<(), CatalogueError> {
+    let n_sessions: i64 = connection.query_row(
+        "SELECT COUNT(*) FROM sessions WHERE actor = ?1 AND end_time_nanos IS NULL",
+        [id.as_str()],
+        |row| row.get(0),
+    )?;
+    if n_sessions > 0 {
+        return Err(CatalogueError::ActorInUse {
+            n_sessions: n_sessions.unsigned_abs(),
+        });
+    }
+    Ok(())
 }
 
 fn newest(connection: &Connection, id: &ActorId) -> Result<Option<ActorRevision>, CatalogueError> {

@@ -7,7 +7,7 @@ use rusqlite::{Connection, TransactionBehavior};
 use super::CatalogueError;
 
 /// Step `i` leads from version `i` to version `i + 1`.
-const STEPS: &[&str] = &[V1, V2];
+const STEPS: &[&str] = &[V1, V2, V3, V4];
 
 /// `counters` holds what must not repeat when rows are gone: the highest run and epoch of any collected session, and
 /// the number of the last package file.
@@ -79,6 +79,33 @@ CREATE TABLE doomed_takes (
 ) STRICT;
 ";
 
+/// Where takes come from, and where on the stage's clock they begin.
+const V3: &str = "
+ALTER TABLE takes ADD COLUMN resolved_from  TEXT;
+ALTER TABLE takes ADD COLUMN start_timecode TEXT;
+ALTER TABLE takes ADD COLUMN with_images    INTEGER NOT NULL DEFAULT 0;
+";
+
+/// Actors that are being erased, and takes that are being made of others.
+const V4: &str = "
+CREATE TABLE doomed_actors (
+    id TEXT PRIMARY KEY
+) STRICT;
+CREATE TABLE claimed_takes (
+    id TEXT PRIMARY KEY
+) STRICT;
+";
+
+/// Looks through the whole database for damage, before anything is changed.
+fn check(connection: &Connection) -> Result<(), CatalogueError> {
+    let said: String = connection.query_row("PRAGMA quick_check(1)", [], |row| row.get(0))?;
+    if said == "ok" {
+        return Ok(());
+    }
+    let corrupt = rusqlite::ffi::Error::new(rusqlite::ffi::SQLITE_CORRUPT);
+    Err(rusqlite::Error::SqliteFailure(corrupt, Some(said)).into())
+}
+
 /// Sets the connection up and brings the schema to the newest version.
 pub(super) fn prepare(connection: &mut Connection) -> Result<(), CatalogueError> {
     let found: i64 = connection.pragma_query_value(None, "user_version", |row| row.get(0))?;
@@ -86,10 +113,13 @@ pub(super) fn prepare(connection: &mut Connection) -> Result<(), CatalogueError>
     if found > known {
         return Err(CatalogueError::NewerVersion { found, known });
     }
+    check(connection)?;
     // WAL with NORMAL would acknowledge before the flush.
     connection.pragma_update(None, "journal_mode", "wal")?;
     connection.pragma_update(None, "synchronous", "full")?;
     connection.pragma_update(None, "foreign_keys", true)?;
+    // What is deleted is overwritten: rows are personal data too.
+    connection.pragma_update(None, "secure_delete", true)?;
     let done = usize::try_from(found).map_err(|_| CatalogueError::Unreadable {
         what: "schema version",
     })?;

@@ -296,7 +296,8 @@ fn check_revision(
     revision: u32,
 ) -> Result<(), CatalogueError> {
     let exists: bool = connection.query_row(
-        "SELECT EXISTS (SELECT 1 FROM revisions WHERE actor = ?1 AND revision = ?2)",
+        "SELECT EXISTS (SELECT 1 FROM revisions WHERE actor = ?1 AND revision = ?2
+            AND actor NOT IN (SELECT id FROM doomed_actors))",
         params![actor.as_str(), revision],
         |row| row.get(0),
     )?;
@@ -392,7 +393,7 @@ fn counter(value: u64) -> i64 {
     i64::try_from(value).unwrap_or(i64::MAX)
 }
 
-fn session_id(text: &str) -> Result<SessionId, CatalogueError> {
+pub(super) fn session_id(text: &str) -> Result<SessionId, CatalogueError> {
     SessionId::parse(text).map_err(|_| CatalogueError::Unreadable { what: "session id" })
 }
 

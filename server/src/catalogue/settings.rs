@@ -19,6 +19,10 @@ pub struct StoredSettings {
     pub stale_after: Option<Duration>,
     /// How long a publisher keeps its lease without a frame.
     pub publisher_timeout: Duration,
+    /// A run is recorded from its first frame on.
+    pub record: bool,
+    /// That recording keeps raw images.
+    pub record_images: bool,
 }
 
 impl StoredSettings {
@@ -50,6 +54,11 @@ struct Record {
     align_on_request: bool,
     stale_after_nanos: Option<u64>,
     publisher_timeout_nanos: u64,
+    /// Absent in records of before there were takes: off.
+    #[serde(default)]
+    record: bool,
+    #[serde(default)]
+    record_images: bool,
     /// Absent in records of before there were terms and bounds: the defaults.
     #[serde(default)]
     objective: ObjectiveRecord,
@@ -85,6 +94,8 @@ impl From<&StoredSettings> for Record {
             align_on_request: marker.align_on_request,
             stale_after_nanos: settings.stale_after.map(nanos),
             publisher_timeout_nanos: nanos(settings.publisher_timeout),
+            record: settings.record,
+            record_images: settings.record_images,
             objective: (&marker.objective).into(),
         }
     }
@@ -108,6 +119,8 @@ impl From<Record> for StoredSettings {
             },
             stale_after: record.stale_after_nanos.map(Duration::from_nanos),
             publisher_timeout: Duration::from_nanos(record.publisher_timeout_nanos),
+            record: record.record,
+            record_images: record.record_images,
         }
     }
 }
@@ -185,6 +198,8 @@ mod tests {
             },
             stale_after: None,
             publisher_timeout: Duration::from_secs(10),
+            record: true,
+            record_images: false,
         };
         let text = settings.to_text().unwrap();
         assert_eq!(StoredSettings::from_text(&text).unwrap(), settings);

@@ -1,5 +1,7 @@
 //! The catalogue for async callers: each call runs on a worker, so that no commit holds up the runtime.
 
+mod erasure;
+
 use std::sync::{Arc, Mutex, PoisonError};
 
 use frontalis_analysis::{
@@ -248,14 +250,9 @@ impl Store {
     /// # Errors
     ///
     /// As there.
-    pub async fn delete_actor(
-        &self,
-        actor: &ActorId,
-        with_sessions: bool,
-    ) -> Result<(), CatalogueError> {
+    pub async fn delete_actor(&self, actor: &ActorId) -> Result<(), CatalogueError> {
         let id = actor.clone();
-        self.commit(move |it| it.delete_actor(&id, with_sessions))
-            .await?;
+        self.commit(move |it| it.delete_actor(&id)).await?;
         self.cache.forget(actor);
         Ok(())
     }
@@ -296,6 +293,25 @@ impl Store {
         self.commit(move |it| it.add_take(&new)).await
     }
 
+    /// As [`Catalogue::claim_take`].
+    ///
+    /// # Errors
+    ///
+    /// As there.
+    pub async fn claim_take(&self, id: &TakeId) -> Result<(), CatalogueError> {
+        let id = id.clone();
+        self.commit(move |it| it.claim_take(&id)).await
+    }
+
+    /// As [`Catalogue::add_claimed_take`].
+    ///
+    /// # Errors
+    ///
+    /// As there.
+    pub async fn add_claimed_take(&self, new: TakeRow) -> Result<TakeRow, CatalogueError> {
+        self.commit(move |it| it.add_claimed_take(&new)).await
+    }
+
     /// As [`Catalogue::take`].
     ///
     /// # Errors
@@ -319,15 +335,6 @@ impl Store {
     ) -> Result<Vec<TakeRow>, CatalogueError> {
         self.commit(move |it| it.takes(&filter, &after, limit))
             .await
-    }
-
-    /// As [`Catalogue::takes_left_open`].
-    ///
-    /// # Errors
-    ///
-    /// As there.
-    pub async fn takes_left_open(&self) -> Result<Vec<TakeRow>, CatalogueError> {
-        self.commit(Catalogue::takes_left_open).await
     }
 
     /// As [`Catalogue::label_take`].

@@ -2,16 +2,19 @@
 //!
 //! A take's file is what counts; a row is written before the file begins, and brought up to date when it is over.
 
+use frontalis_analysis::timecode::Timecode;
 use rusqlite::{Connection, OptionalExtension as _, Params, Row, params};
 
-use super::{Catalogue, CatalogueError};
+use super::{Catalogue, CatalogueError, timecode};
 use crate::name::{ActorId, SessionId, TakeId};
 
 /// Where a take stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TakeState {
-    /// Its session is being recorded, or was when the server crashed.
+    /// Its session is being recorded.
     Recording,
+    /// Its session was being recorded when the last process stopped; its file is being brought into order.
+    Recovering,
     /// Whole.
     Closed,
     /// Part of it could not be written.
@@ -23,8 +26,9 @@ pub enum TakeState {
 }
 
 impl TakeState {
-    const NAMES: [(Self, &str); 5] = [
+    const NAMES: [(Self, &str); 6] = [
         (Self::Recording, "recording"),
+        (Self::Recovering, "recovering"),
         (Self::Closed, "closed"),
         (Self::Degraded, "degraded"),
         (Self::TruncatedDiskFull, "truncated-disk-full"),
@@ -93,6 +97,12 @@ pub struct TakeRow {
     pub state: TakeState,
     /// Closed by recovery after a crash.
     pub recovered: bool,
+    /// The take that it was solved from again; `None`: captured.
+    pub resolved_from: Option<TakeId>,
+    /// Of its first frame that has one.
+    pub start_timecode: Option<Timecode>,
+    /// Raw images were asked for too.
+    pub with_images: bool,
 }
 
 /// Which takes are listed.
@@ -107,7 +117,11 @@ pub struct TakeFilter {
 }
 
 const COLUMNS: &str = "id, session, actor, actor_revision, slate, number, gesture, circled, notes,
-    start_time_nanos, stop_time_nanos, first_frame, last_frame, n_frames, n_bytes, state, recovered";
+    start_time_nanos, stop_time_nanos, first_frame, last_frame, n_frames, n_bytes, state, recovered,
+    resolved_from, start_timecode, with_images";
+
+/// What is being erased is not seen any more.
+const SEEN: &str = "id NOT IN (SELECT id FROM doomed_takes)";
 
 impl Catalogue {
     /// Adds a take that begins. A number of 0 becomes the next of its slate.
@@ -116,38 +130,60 @@ impl Catalogue {
     ///
     /// [`CatalogueError::TakeExists`] when there is one of that id.
     pub fn add_take(&self, new: &TakeRow) -> Result<TakeRow, CatalogueError> {
+        insert(&self.connection(), new)
+    }
+
+    /// Claims the id of a take that is yet to be made: what a crash leaves of it is erased at the next start.
+    ///
+    /// # Errors
+    ///
+    /// [`CatalogueError::TakeExists`] when the id is used, or claimed already.
+    pub fn claim_take(&self, id: &TakeId) -> Result<(), CatalogueError> {
         let connection = self.connection();
-        let id = new.id.as_str();
-        if find(&connection, &new.id)?.is_some() {
+        if find(&connection, id)?.is_some() {
             return Err(CatalogueError::TakeExists);
         }
-        let number = match new.labels.number {
-            0 => next_number(&connection, &new.labels.slate)?,
-            chosen => chosen,
-        };
-        connection.execute(
-            "INSERT INTO takes VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, ?15, ?16, ?17)",
-            params![
-                id,
-                new.session.as_str(),
-                new.actor.as_str(),
-                new.actor_revision,
-                new.labels.slate,
-                number,
-                new.labels.gesture,
-                new.labels.circled,
-                new.labels.notes,
-                new.start_time_nanos,
-                new.stop_time_nanos,
-                integer(new.content.first_frame),
-                integer(new.content.last_frame),
-                integer(new.content.n_frames),
-                integer(new.content.n_bytes),
-                new.state.name(),
-                new.recovered,
-            ],
-        )?;
+        let statement = "INSERT OR IGNORE INTO claimed_takes VALUES (?1)";
+        match connection.execute(statement, [id.as_str()])? {
+            0 => Err(CatalogueError::TakeExists),
+            _ => Ok(()),
+        }
+    }
+
+    /// Adds a take whose id was claimed and whose file is whole; its claim is over.
+    ///
+    /// # Errors
+    ///
+    /// [`CatalogueError::NoTake`] when the take that it was made from is gone, or about to be: then nothing may be left of this
+    /// one either.
+    pub fn add_claimed_take(&self, new: &TakeRow) -> Result<TakeRow, CatalogueError> {
+        let mut connection = self.connection();
+        let change = connection.transaction()?;
+        if let Some(from) = &new.resolved_from {
+            let is_doomed = "SELECT EXISTS (SELECT 1 FROM doomed_takes WHERE id = ?1)";
+            let is_doomed = change.query_row(is_doomed, [from.as_str()], |row| row.get(0))?;
+            if is_doomed || find(&change, from)?.is_none() {
+                return Err(CatalogueError::NoTake);
+            }
+        }
+        insert(&change, new)?;
+        change.execute("DELETE FROM claimed_takes WHERE id = ?1", [new.id.as_str()])?;
+        change.commit()?;
         found(&connection, &new.id)
+    }
+
+    /// Adds takes whose files are there, all or none of them.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::add_take`].
+    pub fn add_takes(&self, new: &[TakeRow]) -> Result<(), CatalogueError> {
+        let mut connection = self.connection();
+        let change = connection.transaction()?;
+        for row in new {
+            insert(&change, row)?;
+        }
+        Ok(change.commit()?)
     }
 
     /// One take.
@@ -183,15 +219,6 @@ impl Catalogue {
         select(&self.connection(), condition, values)
     }
 
-    /// Takes that were being recorded when the last process stopped.
-    ///
-    /// # Errors
-    ///
-    /// That the database failed or a row cannot be read.
-    pub fn takes_left_open(&self) -> Result<Vec<TakeRow>, CatalogueError> {
-        select(&self.connection(), "state = 'recording' ORDER BY id", [])
-    }
-
     /// Stores what people say of a take.
     ///
     /// # Errors
@@ -220,9 +247,11 @@ impl Catalogue {
     /// [`CatalogueError::NoTake`].
     pub fn end_take(&self, ended: &TakeRow) -> Result<TakeRow, CatalogueError> {
         let connection = self.connection();
+        let start_timecode = ended.start_timecode.as_ref().map(timecode::to_text);
+        let start_timecode = start_timecode.transpose()?;
         connection.execute(
             "UPDATE takes SET stop_time_nanos = ?2, first_frame = ?3, last_frame = ?4, n_frames = ?5,
-                n_bytes = ?6, state = ?7, recovered = ?8 WHERE id = ?1",
+                n_bytes = ?6, state = ?7, recovered = ?8, start_timecode = ?9 WHERE id = ?1",
             params![
                 ended.id.as_str(),
                 ended.stop_time_nanos,
@@ -232,6 +261,7 @@ impl Catalogue {
                 integer(ended.content.n_bytes),
                 ended.state.name(),
                 ended.recovered,
+                start_timecode,
             ],
         )?;
         found(&connection, &ended.id)
@@ -271,9 +301,64 @@ impl Catalogue {
         let change = connection.transaction()?;
         change.execute("DELETE FROM takes WHERE id = ?1", [id.as_str()])?;
         change.execute("DELETE FROM doomed_takes WHERE id = ?1", [id.as_str()])?;
+        change.execute("DELETE FROM claimed_takes WHERE id = ?1", [id.as_str()])?;
         change.commit()?;
         Ok(())
     }
+
+    /// At a start nothing is being made any more: what was claimed is to be erased.
+    pub(super) fn doom_claimed_takes(&self) -> Result<(), CatalogueError> {
+        let mut connection = self.connection();
+        let change = connection.transaction()?;
+        change.execute(
+            "INSERT OR IGNORE INTO doomed_takes SELECT id FROM claimed_takes",
+            [],
+        )?;
+        change.execute("DELETE FROM claimed_takes", [])?;
+        Ok(change.commit()?)
+    }
+}
+
+fn insert(connection: &Connection, new: &TakeRow) -> Result<TakeRow, CatalogueError> {
+    let id = new.id.as_str();
+    if find(connection, &new.id)?.is_some() {
+        return Err(CatalogueError::TakeExists);
+    }
+    let number = match new.labels.number {
+        0 => next_number(connection, &new.labels.slate)?,
+        chosen => chosen,
+    };
+    let start_timecode = new
+        .start_timecode
+        .as_ref()
+        .map(timecode::to_text)
+        .transpose()?;
+    connection.execute(
+        "INSERT INTO takes VALUES (?1, ?2, ?3, ?4, ?5, ?6, ?7, ?8, ?9, ?10, ?11, ?12, ?13, ?14, ?15, ?16, ?17, ?18, ?19, ?20)",
+        params![
+            id,
+            new.session.as_str(),
+            new.actor.as_str(),
+            new.actor_revision,
+            new.labels.slate,
+            number,
+            new.labels.gesture,
+            new.labels.circled,
+            new.labels.notes,
+            new.start_time_nanos,
+            new.stop_time_nanos,
+            integer(new.content.first_frame),
+            integer(new.content.last_frame),
+            integer(new.content.n_frames),
+            integer(new.content.n_bytes),
+            new.state.name(),
+            new.recovered,
+            new.resolved_from.as_ref().map(TakeId::as_str),
+            start_timecode,
+            new.with_images,
+        ],
+    )?;
+    found(connection, &new.id)
 }
 
 fn found(connection: &Connection, id: &TakeId) -> Result<TakeRow, CatalogueError> {
@@ -290,20 +375,22 @@ fn next_number(connection: &Connection, slate: &str) -> Result<u32, CatalogueErr
 }
 
 fn find(connection: &Connection, id: &TakeId) -> Result<Option<TakeRow>, CatalogueError> {
-    let statement = format!("SELECT {COLUMNS} FROM takes WHERE id = ?1");
+    let statement = format!("SELECT {COLUMNS} FROM takes WHERE {SEEN} AND id = ?1");
     let found = connection
         .query_row(&statement, [id.as_str()], raw)
         .optional()?;
     found.map(RawTake::parse).transpose()
 }
 
-fn select(
+/// Of the takes that are not being erased.
+pub(super) fn select(
     connection: &Connection,
     condition: &str,
     values: impl Params,
 ) -> Result<Vec<TakeRow>, CatalogueError> {
-    let mut statement =
-        connection.prepare(&format!("SELECT {COLUMNS} FROM takes WHERE {condition}"))?;
+    let mut statement = connection.prepare(&format!(
+        "SELECT {COLUMNS} FROM takes WHERE {SEEN} AND {condition}"
+    ))?;
     let rows = statement.query_map(values, raw)?;
     rows.map(|it| it?.parse()).collect()
 }
@@ -319,6 +406,9 @@ struct RawTake {
     stop_time_nanos: Option<i64>,
     content: [i64; 4],
     recovered: bool,
+    resolved_from: Option<String>,
+    start_timecode: Option<String>,
+    with_images: bool,
 }
 
 fn raw(row: &Row<'_>) -> rusqlite::Result<RawTake> {
@@ -339,6 +429,9 @@ fn raw(row: &Row<'_>) -> rusqlite::Result<RawTake> {
         content: [row.get(11)?, row.get(12)?, row.get(13)?, row.get(14)?],
         state: row.get(15)?,
         recovered: row.get(16)?,
+        resolved_from: row.get(17)?,
+        start_timecode: row.get(18)?,
+        with_images: row.get(19)?,
     })
 }
 
@@ -366,11 +459,17 @@ impl RawTake {
             },
             state: TakeState::of(&self.state).ok_or(STATE)?,
             recovered: self.recovered,
+            resolved_from: self.resolved_from.map(|it| take_id(&it)).transpose()?,
+            start_timecode: self
+                .start_timecode
+                .map(|it| timecode::from_text(&it))
+                .transpose()?,
+            with_images: self.with_images,
         })
     }
 }
 
-fn take_id(text: &str) -> Result<TakeId, CatalogueError> {
+pub(super) fn take_id(text: &str) -> Result<TakeId, CatalogueError> {
     TakeId::parse(text).map_err(|_| CatalogueError::Unreadable { what: "take id" })
 }
 

@@ -3,6 +3,7 @@
 //! The figures are upper bounds by purpose: each says what would be held if every limit were reached at once.
 
 use super::{Config, KIB, MIB};
+use crate::session::PRE_ROLL_BYTES;
 
 /// A package of one import is held as uploaded, inflated, and as an actor.
 const IMPORT_COPIES: u64 = 4;
@@ -31,8 +32,20 @@ const BODY_COPIES: u64 = 2;
 /// A package on its way out is held as stored, gathered, and converted.
 const EXPORT_COPIES: u64 = 3;
 
+/// Takes that are exported at once, of all callers together.
+pub const TAKE_EXPORTS: usize = 8;
+
+/// One of them: a batch of messages and their decompressed chunk, the keys of an animation, and the mesh that moves.
+const TAKE_EXPORT_BYTES: u64 = 160 * MIB;
+
 /// Program, database cache, runtime.
 const FIXED_BYTES: u64 = 128 * MIB;
+
+/// Takes that are solved again at once.
+pub const RESOLVES: usize = 2;
+
+/// Each holds three revisions of its actor, and of its file what was read and what is to be written.
+const RESOLVE_BYTES: u64 = 3 * ACTOR_BYTES + 2 * 64 * MIB;
 
 /// One line of the sum.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -47,7 +60,8 @@ pub struct MemoryItem {
 pub fn worst_case(config: &Config) -> Vec<MemoryItem> {
     let (limits, transport) = (&config.limits, &config.transport);
     let product = |a: u64, b: u64| a.saturating_mul(b);
-    let per_session = product(limits.waiting_mib.saturating_add(limits.window_mib), MIB);
+    let per_session = product(limits.waiting_mib.saturating_add(limits.window_mib), MIB)
+        .saturating_add(PRE_ROLL_BYTES as u64);
     let sessions =
         product(limits.sessions, per_session).min(product(limits.session_memory_mib, MIB));
     let per_connection = transport
@@ -64,6 +78,7 @@ pub fn worst_case(config: &Config) -> Vec<MemoryItem> {
     );
     let per_export = product(limits.package_mib, EXPORT_COPIES * MIB).saturating_add(ACTOR_BYTES);
     let bodies = product(LARGE_BODIES as u64, BODY_COPIES * LARGE_BODY_BYTES as u64);
+    let resolves = product(RESOLVES as u64, RESOLVE_BYTES);
     vec![
         item("waiting frames and windows of all sessions", sessions),
         item("messages on their way in", messages),
@@ -74,6 +89,11 @@ pub fn worst_case(config: &Config) -> Vec<MemoryItem> {
         ),
         item("imports", imports),
         item("exports", product(limits.exports, per_export)),
+        item("takes being solved again", resolves),
+        item(
+            "exports of takes",
+            product(TAKE_EXPORTS as u64, TAKE_EXPORT_BYTES),
+        ),
         item("large bodies of HTTP", bodies),
         item("loaded actors", product(limits.cached_actors, ACTOR_BYTES)),
         item("the program itself", FIXED_BYTES),

@@ -24,6 +24,12 @@ fn general(config: &Config) -> Vec<Range> {
             1,
             8_760,
         ),
+        (
+            "retention.takes_days",
+            config.retention.takes_days,
+            0,
+            36_500,
+        ),
     ]
 }
 

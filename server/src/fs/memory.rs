@@ -1,7 +1,7 @@
 //! A file system in memory, which can be told to fail.
 
 use std::{
-    collections::BTreeMap,
+    collections::{BTreeMap, BTreeSet},
     ffi::OsString,
     io,
     path::{Path, PathBuf},
@@ -12,15 +12,31 @@ use super::{AppendFile, Fs, ReadFile};
 
 /// Files of one process, gone with it; clones share the same files.
 ///
-/// [`MemFs::fail_after`] makes it stop working after so many calls that change something, which is what a crash or a
-/// full disk looks like from above.
+/// [`MemFs::fail_after`] makes it stop working after so many calls that change something, which is what a crash looks like
+/// from above; [`MemFs::fail_call`] lets one call fail, or all from it on, which is what a bad or a full disk does.
 #[derive(Clone, Debug, Default)]
 pub struct MemFs(Arc<Mutex<State>>);
 
 #[derive(Debug, Default)]
 struct State {
     files: BTreeMap<PathBuf, File>,
+    /// The names that are on the disk, whatever happens.
+    durable: BTreeMap<PathBuf, File>,
     changes_left: Option<usize>,
+    fault: Option<Fault>,
+    n_calls: usize,
+    free_bytes: Option<u64>,
+    ignores_flushes: bool,
+}
+
+/// Calls that fail.
+#[derive(Clone, Copy, Debug)]
+struct Fault {
+    /// Number of the first.
+    call: usize,
+    kind: io::ErrorKind,
+    /// Whether all later ones fail too.
+    lasts: bool,
 }
 
 /// A file, which those who opened it go on seeing when its name is given to another.
@@ -52,17 +68,38 @@ impl MemFs {
     ///
     /// `torn` gets the name and the bytes that were not flushed, and returns those that are found in their place.
     #[must_use]
-    pub fn after_power_cut(&self, mut torn: impl FnMut(&Path, &[u8]) -> Vec<u8>) -> Self {
-        let after = Self::default();
-        for (name, file) in &self.state().files {
+    pub fn after_power_cut(&self, torn: impl FnMut(&Path, &[u8]) -> Vec<u8>) -> Self {
+        self.after_power_cut_with(torn, |_| true)
+    }
+
+    /// The same where names may be lost too: of a name that was made, changed or removed since its directory was flushed,
+    /// `reached` says whether that reached the disk all the same.
+    #[must_use]
+    pub fn after_power_cut_with(
+        &self,
+        mut torn: impl FnMut(&Path, &[u8]) -> Vec<u8>,
+        mut reached: impl FnMut(&Path) -> bool,
+    ) -> Self {
+        let state = self.state();
+        let mut files = BTreeMap::new();
+        let names: BTreeSet<&PathBuf> = state.files.keys().chain(state.durable.keys()).collect();
+        for name in names {
+            let known = if reached(name) {
+                state.files.get(name)
+            } else {
+                state.durable.get(name)
+            };
+            let Some(file) = known else {
+                continue;
+            };
             let content = file.content();
             let (synced, rest) = content.bytes.split_at(content.n_synced);
             let bytes = [synced, &torn(name, rest)].concat();
-            after
-                .state()
-                .files
-                .insert(name.clone(), File::synced(&bytes));
+            files.insert(name.clone(), File::synced(&bytes));
         }
+        let after = Self::default();
+        after.state().durable.clone_from(&files);
+        after.state().files = files;
         after
     }
 
@@ -71,12 +108,50 @@ impl MemFs {
         self.state().changes_left = n_changes;
     }
 
+    /// Lets the call fail that comes after `n_calls` more, reading or writing, with an error of this kind; with `lasts` all
+    /// that come after it too, until [`Self::repair`]. A write that fails is done by half.
+    pub fn fail_call(&self, n_calls: usize, kind: io::ErrorKind, lasts: bool) {
+        let mut state = self.state();
+        let call = state.n_calls + n_calls;
+        state.fault = Some(Fault { call, kind, lasts });
+    }
+
+    /// Nothing fails any more. True: something had failed.
+    pub fn repair(&self) -> bool {
+        let mut state = self.state();
+        let n_calls = state.n_calls;
+        let fault = state.fault.take();
+        fault.is_some_and(|it| n_calls > it.call)
+    }
+
+    /// Says of every flush that it was done, and does none: what comes of acknowledging before the flush.
+    pub fn ignore_flushes(&self) {
+        self.state().ignores_flushes = true;
+    }
+
+    /// So much is free from now on; `None`: as much as there is.
+    pub fn set_free_bytes(&self, free_bytes: Option<u64>) {
+        self.state().free_bytes = free_bytes;
+    }
+
+    /// Counts a call, which may fail.
+    fn call(&self) -> io::Result<MutexGuard<'_, State>> {
+        let mut state = self.state();
+        let call = state.n_calls;
+        state.n_calls += 1;
+        let hit = |it: &Fault| call == it.call || (it.lasts && call > it.call);
+        match state.fault.filter(hit) {
+            Some(fault) => Err(fault.kind.into()),
+            None => Ok(state),
+        }
+    }
+
     fn state(&self) -> MutexGuard<'_, State> {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
     fn change(&self) -> io::Result<MutexGuard<'_, State>> {
-        let mut state = self.state();
+        let mut state = self.call()?;
         match &mut state.changes_left {
             Some(0) => return Err(io::Error::other("the storage was told to fail")),
             Some(left) => *left -= 1,
@@ -92,7 +167,7 @@ impl Fs for MemFs {
     }
 
     fn read(&self, file: &Path) -> io::Result<Vec<u8>> {
-        let state = self.state();
+        let state = self.call()?;
         let found = state.files.get(file).map(|it| it.content().bytes.clone());
         found.ok_or_else(|| io::ErrorKind::NotFound.into())
     }
@@ -118,13 +193,16 @@ impl Fs for MemFs {
     }
 
     fn open(&self, file: &Path) -> io::Result<Box<dyn ReadFile>> {
-        let state = self.state();
+        let state = self.call()?;
         let found = state.files.get(file).cloned();
-        Ok(Box::new(found.ok_or(io::ErrorKind::NotFound)?))
+        Ok(Box::new(Opened {
+            fs: self.clone(),
+            file: found.ok_or(io::ErrorKind::NotFound)?,
+        }))
     }
 
     fn free_bytes(&self, _dir: &Path) -> io::Result<u64> {
-        Ok(u64::MAX)
+        Ok(self.call()?.free_bytes.unwrap_or(u64::MAX))
     }
 
     fn rename(&self, from: &Path, to: &Path) -> io::Result<()> {
@@ -134,8 +212,14 @@ impl Fs for MemFs {
         Ok(())
     }
 
-    fn sync_dir(&self, _dir: &Path) -> io::Result<()> {
-        self.change().map(drop)
+    fn sync_dir(&self, dir: &Path) -> io::Result<()> {
+        let mut state = self.change()?;
+        let State { files, durable, .. } = &mut *state;
+        let is_inside = |it: &Path| it.parent() == Some(dir);
+        durable.retain(|name, _| !is_inside(name));
+        let inside = files.iter().filter(|(name, _)| is_inside(name));
+        durable.extend(inside.map(|(name, file)| (name.clone(), file.clone())));
+        Ok(())
     }
 
     fn remove(&self, file: &Path) -> io::Result<()> {
@@ -144,7 +228,7 @@ impl Fs for MemFs {
     }
 
     fn list(&self, dir: &Path) -> io::Result<Vec<OsString>> {
-        let state = self.state();
+        let state = self.call()?;
         let inside = state.files.keys().filter(|it| it.parent() == Some(dir));
         Ok(inside
             .filter_map(|it| it.file_name().map(OsString::from))
@@ -152,9 +236,17 @@ impl Fs for MemFs {
     }
 }
 
-impl ReadFile for File {
+/// A file of memory that is read.
+#[derive(Debug)]
+struct Opened {
+    fs: MemFs,
+    file: File,
+}
+
+impl ReadFile for Opened {
     fn read_at(&mut self, offset: u64, buffer: &mut [u8]) -> io::Result<usize> {
-        let content = self.content();
+        drop(self.fs.call()?);
+        let content = self.file.content();
         let offset = usize::try_from(offset).unwrap_or(usize::MAX);
         let rest = content.bytes.get(offset..).unwrap_or_default();
         let n_bytes = rest.len().min(buffer.len());
@@ -163,7 +255,7 @@ impl ReadFile for File {
     }
 
     fn size(&self) -> io::Result<u64> {
-        Ok(self.content().bytes.len() as u64)
+        Ok(self.file.content().bytes.len() as u64)
     }
 }
 
@@ -176,13 +268,22 @@ struct Growing {
 
 impl AppendFile for Growing {
     fn append(&mut self, bytes: &[u8]) -> io::Result<()> {
-        let _changing = self.fs.change()?;
-        self.file.content().bytes.extend_from_slice(bytes);
-        Ok(())
+        let changing = self.fs.change();
+        let n_bytes = if changing.is_ok() {
+            bytes.len()
+        } else {
+            bytes.len() / 2
+        };
+        let mut content = self.file.content();
+        content.bytes.extend_from_slice(&bytes[..n_bytes]);
+        changing.map(drop)
     }
 
     fn sync(&mut self) -> io::Result<()> {
-        let _changing = self.fs.change()?;
+        let changing = self.fs.change()?;
+        if changing.ignores_flushes {
+            return Ok(());
+        }
         let mut content = self.file.content();
         content.n_synced = content.bytes.len();
         Ok(())

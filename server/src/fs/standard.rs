@@ -27,16 +27,13 @@ impl Fs for StdFs {
     fn write_and_sync(&self, file: &Path, content: &[u8]) -> io::Result<()> {
         // A temporary file of the same name can only be left over from a crash.
         self.remove(file)?;
-        let mut new = OpenOptions::new().write(true).create_new(true).open(file)?;
+        let mut new = private_files().write(true).create_new(true).open(file)?;
         new.write_all(content)?;
         new.sync_all()
     }
 
     fn create(&self, file: &Path) -> io::Result<Box<dyn AppendFile>> {
-        let new = OpenOptions::new()
-            .append(true)
-            .create_new(true)
-            .open(file)?;
+        let new = private_files().append(true).create_new(true).open(file)?;
         Ok(Box::new(Growing(new)))
     }
 
@@ -112,6 +109,14 @@ fn private_directories() -> DirBuilder {
     builder
 }
 
+/// Likewise: a new file is the server's own account's alone.
+fn private_files() -> OpenOptions {
+    let mut options = OpenOptions::new();
+    #[cfg(unix)]
+    std::os::unix::fs::OpenOptionsExt::mode(&mut options, 0o600);
+    options
+}
+
 /// A link planted in the data directory must not lead out of it (CONTRACTS S-6).
 fn refuse_link(path: &Path) -> io::Result<()> {
     if fs::symlink_metadata(path)?.is_symlink() {
@@ -147,6 +152,19 @@ mod tests {
         fs::set_permissions(&new, fs::Permissions::from_mode(0o750)).unwrap();
         StdFs.create_dir_all(&new).unwrap();
         assert_eq!(mode(&new), 0o750);
+    }
+
+    #[test]
+    fn a_new_file_is_the_servers_alone() {
+        use std::os::unix::fs::PermissionsExt as _;
+        let dir = tempfile::tempdir().unwrap();
+        let (written, grown) = (dir.path().join("written"), dir.path().join("grown"));
+        StdFs.write_and_sync(&written, b"face").unwrap();
+        StdFs.create(&grown).unwrap();
+        for file in [written, grown] {
+            let mode = fs::metadata(&file).unwrap().permissions().mode() & 0o777;
+            assert_eq!(mode, 0o600, "{}", file.display());
+        }
     }
 
     #[test]

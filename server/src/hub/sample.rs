@@ -1,8 +1,6 @@
 //! What a session publishes: samples, and gaps where frames gave none (CONTRACTS D-2, D-4).
 
-use frontalis_analysis::curve::CurveSample;
-
-use super::timecode::Timecode;
+use frontalis_analysis::{curve::CurveSample, timecode::Timecode};
 
 /// One curve sample with its place in the stream and what its frame brought along.
 #[derive(Clone, Debug, PartialEq)]
@@ -26,6 +24,8 @@ pub struct SampleTag {
     pub source_frame: u64,
     /// Time of day on the stage, when it was valid.
     pub timecode: Option<Timecode>,
+    /// The capture time on the server's clock, once the publisher's clock is known.
+    pub capture_time_server_nanos: Option<i64>,
     /// The frame's timecode was not one, and was dropped.
     pub timecode_invalid: bool,
     /// The capture time did not grow.

@@ -7,7 +7,11 @@ use tokio_util::{sync::CancellationToken, task::TaskTracker};
 use tonic_health::server::HealthReporter;
 
 use crate::{
-    service::door, session::SessionRegistry, shutdown::Phases, take::Recorder, telemetry::Metrics,
+    service::{door, readiness::Readiness},
+    session::SessionRegistry,
+    shutdown::Phases,
+    take::Recorder,
+    telemetry::Metrics,
 };
 
 /// Time for the last events to reach the disk, after everything else has ended.
@@ -20,6 +24,7 @@ const LAST_TAKES: Duration = Duration::from_secs(3);
 pub(super) struct Ending {
     pub(super) grace: Duration,
     pub(super) phases: Phases,
+    pub(super) readiness: Readiness,
     pub(super) health: HealthReporter,
     pub(super) registry: SessionRegistry,
     pub(super) connections: TaskTracker,
@@ -58,7 +63,7 @@ impl Ending {
     }
 
     async fn drain(&mut self) {
-        door::report(&self.health, false).await;
+        door::report(&self.health, &self.readiness).await;
         self.registry.drain().await;
         door::forget_health(&mut self.health).await;
         self.phases.closing.cancel();

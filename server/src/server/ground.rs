@@ -1,6 +1,9 @@
 //! What one server stands on: its catalogue, its files, its audit log, and the threads that work for it.
 
-use std::{path::PathBuf, sync::Arc};
+use std::{
+    path::{Path, PathBuf},
+    sync::Arc,
+};
 
 use super::{RunError, count};
 use crate::{
@@ -23,6 +26,8 @@ pub struct Ground {
     /// Where in `files` takes are.
     pub(super) takes: PathBuf,
     pub(super) audit_log: AuditLog,
+    /// Why nothing may be changed: the catalogue is damaged, and one in memory stands in for it.
+    pub(super) rescue: Option<String>,
 }
 
 impl Ground {
@@ -37,10 +42,10 @@ impl Ground {
         let commits = threads.workers(1);
         let directory = config.directory();
         let opened = commits.run(move || match directory {
-            Some(directory) => Catalogue::open(&directory),
-            None => Catalogue::in_memory(MemFs::default()),
+            Some(directory) => open(&directory),
+            None => Ok((Catalogue::in_memory(MemFs::default())?, None)),
         });
-        let catalogue = opened.await?;
+        let (catalogue, rescue) = opened.await?;
         let heavy = threads.workers(count(config.workers));
         let cached = count(config.limits.cached_actors);
         let store = Store::new(catalogue, commits, heavy.clone(), cached);
@@ -59,6 +64,28 @@ impl Ground {
             files,
             takes: root.join(TAKES),
             audit_log,
+            rescue,
+        })
+    }
+
+    /// Memory, but for takes, which are kept in `files`: a disk that a test may let fail.
+    ///
+    /// # Errors
+    ///
+    /// That the database cannot be used.
+    pub fn with_takes_in(config: &Config, files: Arc<dyn Fs>) -> Result<Self, CatalogueError> {
+        let threads = Threads::Pools;
+        let catalogue = Catalogue::in_memory(MemFs::default())?;
+        let heavy = threads.workers(count(config.workers));
+        let cached = count(config.limits.cached_actors);
+        Ok(Self {
+            store: Store::new(catalogue, threads.workers(1), heavy.clone(), cached),
+            heavy,
+            threads,
+            files,
+            takes: PathBuf::from("/").join(TAKES),
+            audit_log: AuditLog::in_memory(),
+            rescue: None,
         })
     }
 
@@ -86,6 +113,20 @@ impl Ground {
             files: Arc::new(files),
             takes: PathBuf::from("/").join(TAKES),
             audit_log: AuditLog::in_memory(),
+            rescue: None,
         })
+    }
+}
+
+/// The catalogue of a directory, or one in memory beside it and why.
+fn open(directory: &Path) -> Result<(Catalogue, Option<String>), CatalogueError> {
+    use std::error::Error as _;
+    match Catalogue::open(directory) {
+        Err(error) if error.is_damage() => {
+            let cause = error.source().map(|it| format!(": {it}"));
+            let why = format!("{error}{}", cause.unwrap_or_default());
+            Ok((Catalogue::stand_in(directory)?, Some(why)))
+        }
+        opened => Ok((opened?, None)),
     }
 }

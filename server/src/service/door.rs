@@ -35,8 +35,10 @@ use super::{
         self, Doors, Draining, GrpcPanic, grpc_only, heard_out, http_only, unknown, with_instance,
     },
     panics,
+    readiness::{RECORDING, Readiness},
+    rescue,
 };
-use crate::{config::SMALL_MESSAGE_BYTES, telemetry::Metrics};
+use crate::{config::SMALL_MESSAGE_BYTES, take::DiskRoom, telemetry::Metrics};
 
 /// A chunk and what is around it in its message, bytes.
 const CHUNK_MESSAGE_BYTES: usize = MAX_CHUNK_BYTES + 4 * 1024;
@@ -45,12 +47,8 @@ const CHUNK_MESSAGE_BYTES: usize = MAX_CHUNK_BYTES + 4 * 1024;
 const ACTORS: &str = "/frontalis.v1.ActorService/";
 const CAPTURE: &str = "/frontalis.v1.CaptureService/";
 
-/// Names that the health service knows, and whether they serve.
-const HEALTH: [(&str, bool); 3] = [
-    ("", true),
-    ("frontalis.v1.CaptureService", true),
-    ("frontalis.v1.TakeService", true),
-];
+/// Names that the health service knows.
+const HEALTH: [&str; 3] = ["", "frontalis.v1.CaptureService", RECORDING];
 
 /// The services behind the port; each door opens these and no others.
 #[derive(Clone)]
@@ -92,8 +90,9 @@ pub async fn router(
 ) -> Result<(Router, HealthReporter), ReflectionError> {
     let services = doors.services.clone();
     let metrics = doors.metrics.clone();
+    let readiness = doors.readiness.clone();
     let (reporter, health) = tonic_health::server::health_reporter();
-    report(&reporter, true).await;
+    report(&reporter, &doors.readiness).await;
     let reflection = || {
         tonic_reflection::server::Builder::configure()
             .register_encoded_file_descriptor_set(FILE_DESCRIPTOR_SET)
@@ -160,6 +159,7 @@ pub async fn router(
     let router = http
         .merge(grpc)
         .fallback(move |request| count_unknown(metrics.clone(), request))
+        .layer(middleware::from_fn_with_state(readiness, rescue::read_only))
         .layer(middleware::from_fn_with_state(access, authenticate))
         .layer(middleware::from_fn_with_state(guard, guard::check))
         .layer(middleware::from_fn(with_instance))
@@ -176,10 +176,14 @@ async fn count_unknown(metrics: Metrics, request: Request) -> Response {
     unknown(request).await
 }
 
-/// Tells the health service whether the server serves.
-pub async fn report(reporter: &HealthReporter, serving: bool) {
-    for (name, built) in HEALTH {
-        let status = if serving && built {
+/// Tells the health service what the server is ready for.
+pub async fn report(reporter: &HealthReporter, readiness: &Readiness) {
+    for name in HEALTH {
+        let is_ready = match name {
+            RECORDING => readiness.check_recording().is_ok(),
+            _ => readiness.check().is_ok(),
+        };
+        let status = if is_ready {
             ServingStatus::Serving
         } else {
             ServingStatus::NotServing
@@ -188,9 +192,33 @@ pub async fn report(reporter: &HealthReporter, serving: bool) {
     }
 }
 
+/// Tells the health service when the disk is full, and when it is free again, until the server drains.
+pub async fn report_disk(reporter: HealthReporter, mut readiness: Readiness) {
+    let draining = readiness.phases.draining.clone();
+    loop {
+        tokio::select! {
+            changed = readiness.disk.changed() => if changed.is_err() { return },
+            () = draining.cancelled() => return,
+        }
+        let room = *readiness.disk.borrow();
+        if !room.is_enough() {
+            let DiskRoom {
+                free_bytes,
+                needed_bytes,
+            } = room;
+            tracing::warn!(
+                free_bytes,
+                needed_bytes,
+                "the disk has no room for new takes"
+            );
+        }
+        report(&reporter, &readiness).await;
+    }
+}
+
 /// Ends the streams of those who watch the health, so that they do not hold up the end.
 pub async fn forget_health(reporter: &mut HealthReporter) {
-    for (name, _) in HEALTH {
+    for name in HEALTH {
         reporter.clear_service_status(name).await;
     }
 }

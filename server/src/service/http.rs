@@ -22,6 +22,7 @@ mod server;
 mod sessions;
 mod stream;
 mod streams;
+mod takes;
 
 use axum::{
     Extension, Router,
@@ -36,11 +37,8 @@ use utoipa::openapi::OpenApi;
 use utoipa_axum::{router::OpenApiRouter, routes};
 
 use self::openapi::Document;
-use super::door::Services;
-use crate::{
-    shutdown::Phases,
-    telemetry::{Metrics, Protocol},
-};
+use super::{door::Services, readiness::Readiness};
+use crate::telemetry::{Metrics, Protocol};
 
 pub use call::LargeBodies;
 pub use draining::{Draining, heard_out};
@@ -54,8 +52,8 @@ pub struct Doors {
     pub services: Services,
     /// Figures.
     pub metrics: Metrics,
-    /// Whether the server drains.
-    pub phases: Phases,
+    /// What the server is ready for.
+    pub readiness: Readiness,
     /// Places for bodies that are large.
     pub large_bodies: LargeBodies,
 }
@@ -92,12 +90,17 @@ fn api(metrics: &Metrics) -> (Router<Doors>, OpenApi) {
         .routes(routes!(sessions::recenter))
         .routes(routes!(sessions::end))
         .routes(routes!(curves::read))
+        .routes(routes!(takes::list, takes::start))
+        .routes(routes!(takes::get, takes::update, takes::delete))
         .layer(middleware::from_fn(within_deadline));
     // What may take longer has deadlines of its own.
     let transfers = OpenApiRouter::new()
         .routes(routes!(actors::import))
         .routes(routes!(actors::model))
-        .routes(routes!(actors::package));
+        .routes(routes!(actors::package))
+        .routes(routes!(takes::stop))
+        .routes(routes!(takes::download))
+        .routes(routes!(takes::resolve));
     calls
         .merge(transfers)
         .merge(streams::routes())

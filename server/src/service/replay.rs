@@ -84,7 +84,8 @@ impl Replays {
                 .store
                 .takes(filter.clone(), after.clone(), ROWS_AT_ONCE)
                 .await?;
-            for row in &rows {
+            // What was solved again was never sent to anybody.
+            for row in rows.iter().filter(|it| it.resolved_from.is_none()) {
                 held.extend(self.held_by(row, run).await);
             }
             match rows.last() {

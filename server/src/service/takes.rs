@@ -1,30 +1,32 @@
 //! Takes as every door sees them: what is being recorded joined with what the catalogue keeps.
 
-use std::{io, path::PathBuf, sync::Arc};
+mod erasing;
+mod recovery;
+mod resolve;
+
+use std::{io, path::PathBuf, sync::Arc, time::Duration};
 
 use frontalis_proto::v1;
-use futures::Stream;
 use sha2::{Digest as _, Sha256};
-use tokio::sync::watch;
+use tokio::sync::{Semaphore, watch};
 use tonic::Status;
 
-use super::{grpc::status::refuse, replay::Replays};
+pub use self::recovery::LeftOver;
+use self::recovery::RecoveryProgress;
+use super::{grpc::status::refuse, readiness::disk_low, replay::Replays};
 use crate::{
     catalogue::{CatalogueError, Store, TakeContent, TakeFilter, TakeLabels, TakeRow, TakeState},
     clock::ServerClock,
-    executor::Threads,
-    fs::{Fs, TEMPORARY_SUFFIX},
+    config::RESOLVES,
+    executor::{Threads, Workers},
+    fs::Fs,
     name::{SessionId, TakeId},
     session::{SessionHandle, SessionRegistry},
-    take::{
-        Condition, EndedTake, Recorder, Rewritten, StartError, TakeFileError, TakeUnderWay,
-        file_name,
-    },
-    wire::{page::Page, session::effective},
+    take::{Condition, EndedTake, ExportSource, Recorder, StartError, TakeUnderWay, file_name},
+    wire::{self, page::Page, session::effective, take::NewTake},
 };
 
-/// Bytes of a take's file in one message.
-const PIECE_BYTES: usize = 64 * 1024;
+pub use resolve::ResolveOrder;
 
 /// Rows that are looked at together for a caller who sees few of them.
 const ROWS_AT_ONCE: usize = 256;
@@ -38,6 +40,10 @@ pub struct Takes {
     clock: ServerClock,
     fs: Arc<dyn Fs>,
     dir: PathBuf,
+    /// One permit a re-solve.
+    resolves: Arc<Semaphore>,
+    resolvers: Workers,
+    recovery: RecoveryProgress,
 }
 
 impl Takes {
@@ -62,6 +68,9 @@ impl Takes {
             clock,
             fs,
             dir,
+            resolves: Arc::new(Semaphore::new(RESOLVES)),
+            resolvers: threads.workers(RESOLVES),
+            recovery: RecoveryProgress::default(),
         })
     }
 
@@ -85,7 +94,7 @@ impl Takes {
     /// # Errors
     ///
     /// `SESSION`, `TAKE_RECORDING`, `DISK_LOW`, or that the storage failed.
-    pub async fn start(&self, session: &SessionId, labels: TakeLabels) -> Result<TakeRow, Status> {
+    pub async fn start(&self, session: &SessionId, new: NewTake) -> Result<TakeRow, Status> {
         let handle = self.registry.get(session)?;
         handle.check_open()?;
         let start_time_nanos = self.unix_now();
@@ -94,24 +103,35 @@ impl Takes {
             session: session.clone(),
             actor: handle.actor_id().clone(),
             actor_revision: handle.actor_revision(),
-            labels,
+            labels: new.labels,
             start_time_nanos,
             stop_time_nanos: None,
             content: TakeContent::default(),
             state: TakeState::Recording,
             recovered: false,
+            resolved_from: None,
+            start_timecode: None,
+            with_images: new.with_images,
         };
         let row = self.store.add_take(row).await?;
-        let begun = self.begin(&row, handle).await;
+        let begun = self.begin(&row, handle, new.pre_roll).await;
         if begun.is_err() {
             self.store.forget_take(&row.id).await?;
         }
         begun.map(|()| row)
     }
 
-    async fn begin(&self, row: &TakeRow, handle: SessionHandle) -> Result<(), Status> {
+    async fn begin(
+        &self,
+        row: &TakeRow,
+        handle: SessionHandle,
+        pre_roll: Duration,
+    ) -> Result<(), Status> {
         let header = self.header(row, &handle).await?;
-        let started = self.recorder.start(row.id.clone(), handle, header).await;
+        let started = self
+            .recorder
+            .start(row.id.clone(), handle, header, pre_roll)
+            .await;
         let ended = started.map_err(|error| start_status(&error))?;
         let this = self.clone();
         self.recorder
@@ -141,10 +161,35 @@ impl Takes {
             start_time: Some(crate::wire::actor::timestamp(row.start_time_nanos)),
             controls: muscles.map(|it| it.name.clone()).collect(),
             markers: actor.markers().iter().map(|it| it.name.clone()).collect(),
-            next_sequence: 0,
             server_version: env!("CARGO_PKG_VERSION").to_owned(),
-            next_frame: 0,
+            with_images: row.with_images,
+            ..v1::TakeHeader::default()
         })
+    }
+
+    /// Records a session that is to be recorded from its first frame on, when that one is about to come.
+    ///
+    /// # Errors
+    ///
+    /// As of [`Self::start`]: what cannot be recorded is not to be taken either.
+    pub async fn start_with_first_frame(&self, handle: &SessionHandle) -> Result<(), Status> {
+        let settings = handle.settings();
+        if !settings.record || !handle.has_no_frames() || handle.is_recorded() {
+            return Ok(());
+        }
+        let new = NewTake {
+            with_images: settings.record_images,
+            ..NewTake::default()
+        };
+        match self.start(handle.id(), new).await {
+            Ok(row) => {
+                tracing::info!(take = %row.id, session = %row.session, "recorded from its first frame on");
+                Ok(())
+            }
+            // Somebody else started one meanwhile.
+            Err(_) if handle.is_recorded() => Ok(()),
+            Err(refused) => Err(refused),
+        }
     }
 
     /// Waits for the end of a take and writes it into the catalogue.
@@ -152,8 +197,12 @@ impl Takes {
         let Ok(ended) = ended.wait_for(Option::is_some).await.map(|it| it.clone()) else {
             return;
         };
-        if let Some(ended) = ended
-            && let Err(error) = self.store_end(&ended).await
+        let Some(ended) = ended else {
+            return;
+        };
+        // One that was erased meanwhile has no row.
+        if let Err(error) = self.store_end(&ended).await
+            && !matches!(error, CatalogueError::NoTake)
         {
             let error = &error as &dyn std::error::Error;
             tracing::error!(take = %ended.id, error, "how a take ended could not be stored");
@@ -176,6 +225,7 @@ impl Takes {
                 n_bytes: ended.n_bytes,
             },
             state,
+            start_timecode: ended.figures.start_timecode,
             ..row
         };
         self.store.end_take(ended).await
@@ -216,7 +266,11 @@ impl Takes {
             n_frames: figures.n_frames,
             n_bytes,
         };
-        TakeRow { content, ..row }
+        TakeRow {
+            content,
+            start_timecode: figures.start_timecode,
+            ..row
+        }
     }
 
     /// A page of the takes that are seen.
@@ -252,34 +306,16 @@ impl Takes {
         Ok((rows.collect(), next))
     }
 
-    /// The bytes of a take's file, as far as they are on stable storage, in pieces. A take under way is cut where it stood at
-    /// the start.
-    pub fn file(
-        &self,
-        row: &TakeRow,
-    ) -> impl Stream<Item = Result<v1::ExportTakeResponse, Status>> + Send + 'static {
-        let (this, name, n_bytes) = (self.clone(), file_name(&row.id), row.content.n_bytes);
-        futures::stream::try_unfold(0, move |offset| {
-            let (this, name) = (this.clone(), name.clone());
-            async move {
-                let n_left = usize::try_from(n_bytes - offset).unwrap_or(usize::MAX);
-                let chunk = this.piece(name, offset, n_left.min(PIECE_BYTES)).await?;
-                let next = offset + chunk.len() as u64;
-                let is_over = chunk.is_empty();
-                Ok((!is_over).then_some((v1::ExportTakeResponse { chunk }, next)))
-            }
-        })
-    }
-
-    async fn piece(&self, name: String, offset: u64, n_bytes: usize) -> Result<Vec<u8>, Status> {
-        let (fs, file) = (Arc::clone(&self.fs), self.dir.join(name));
-        let read = self.recorder.run(move || {
-            let mut piece = vec![0; n_bytes];
-            let n_read = fs.open(&file)?.read_at(offset, &mut piece)?;
-            piece.truncate(n_read);
-            Ok::<_, io::Error>(piece)
-        });
-        Ok(read.await.map_err(CatalogueError::Storage)?)
+    /// What an export of this take reads. Nobody reads more of a take under way than is on stable storage.
+    pub(super) fn source(&self, row: &TakeRow) -> ExportSource {
+        let under_way = self.recorder.under_way(&row.id);
+        ExportSource {
+            fs: Arc::clone(&self.fs),
+            file: self.dir.join(file_name(&row.id)),
+            n_bytes: under_way.map_or(u64::MAX, |it| it.n_bytes),
+            take: wire::take::take(row),
+            actor: None,
+        }
     }
 
     /// Changes what is said of a take.
@@ -289,86 +325,6 @@ impl Takes {
     /// `TAKE`, or that the storage failed.
     pub async fn label(&self, id: &TakeId, labels: TakeLabels) -> Result<TakeRow, Status> {
         Ok(self.with_progress(self.store.label_take(id, labels).await?))
-    }
-
-    /// Erases a take: its tombstone first, then its bytes, then its row (CONTRACTS U-12).
-    ///
-    /// # Errors
-    ///
-    /// `TAKE`, or that the storage failed; what is left is erased at the next start.
-    pub async fn delete(&self, id: &TakeId) -> Result<(), Status> {
-        self.store.take(id).await?;
-        self.store.doom_take(id).await?;
-        self.recorder.stop(id).await;
-        Ok(self.erase(id).await?)
-    }
-
-    async fn erase(&self, id: &TakeId) -> Result<(), CatalogueError> {
-        let (fs, dir, name) = (Arc::clone(&self.fs), self.dir.clone(), file_name(id));
-        self.recorder
-            .run(move || {
-                fs.remove(&dir.join(format!("{name}{TEMPORARY_SUFFIX}")))?;
-                fs.remove(&dir.join(&name))?;
-                fs.sync_dir(&dir)
-            })
-            .await?;
-        self.store.forget_take(id).await
-    }
-
-    /// Brings every take into order that the last process left open or half erased; returns how many were recovered.
-    ///
-    /// A take that cannot be read is quarantined and named; the others are not affected (CONTRACTS U-5, U-6).
-    ///
-    /// # Errors
-    ///
-    /// That the catalogue failed.
-    pub async fn recover(&self) -> Result<usize, CatalogueError> {
-        for id in self.store.doomed_takes().await? {
-            self.erase(&id).await?;
-        }
-        let left_open = self.store.takes_left_open().await?;
-        let n_takes = left_open.len();
-        for row in left_open {
-            let rewritten = self.recorder.try_rewrite(&row.id).await;
-            self.store.end_take(self.recovered(row, rewritten)).await?;
-        }
-        Ok(n_takes)
-    }
-
-    fn recovered(&self, row: TakeRow, rewritten: Result<Rewritten, TakeFileError>) -> TakeRow {
-        let stop_time_nanos = Some(row.stop_time_nanos.unwrap_or_else(|| self.unix_now()));
-        match rewritten {
-            Ok(it) => {
-                tracing::info!(
-                    take = %row.id,
-                    n_frames = it.figures.n_frames,
-                    n_damaged_bytes = it.n_damaged_bytes,
-                    n_tail_bytes = it.n_tail_bytes,
-                    "a take was recovered"
-                );
-                TakeRow {
-                    stop_time_nanos,
-                    content: TakeContent {
-                        first_frame: it.figures.first_frame,
-                        last_frame: it.figures.last_frame,
-                        n_frames: it.figures.n_frames,
-                        n_bytes: it.n_bytes,
-                    },
-                    state: TakeState::Closed,
-                    recovered: true,
-                    ..row
-                }
-            }
-            Err(error) => {
-                let error = &error as &dyn std::error::Error;
-                tracing::error!(take = %row.id, error, "a take cannot be read, it is kept as it is");
-                TakeRow {
-                    stop_time_nanos,
-                    state: TakeState::Quarantined,
-                    ..row
-                }
-            }
-        }
     }
 
     fn unix_now(&self) -> i64 {
@@ -404,7 +360,10 @@ fn start_status(error: &StartError) -> Status {
         StartError::Recorded(_) => {
             refuse(tonic::Code::FailedPrecondition, "TAKE_RECORDING", message)
         }
-        StartError::DiskLow { .. } => refuse(tonic::Code::ResourceExhausted, "DISK_LOW", message),
+        StartError::DiskLow(room) => disk_low(*room),
+        StartError::Io(error) if error.kind() == io::ErrorKind::StorageFull => {
+            refuse(tonic::Code::ResourceExhausted, "DISK_LOW", message)
+        }
         StartError::Io(_) => refuse(tonic::Code::Internal, "STORAGE", message),
         StartError::Session(error) => error.clone().into(),
         StartError::Subscribe(error) => (*error).into(),

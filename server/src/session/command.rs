@@ -10,7 +10,7 @@ use tokio::sync::oneshot;
 
 use super::{
     mailbox::Mailbox,
-    recording::Recorded,
+    recording::{Recorded, RecordingTap},
     settings::{SessionSettings, StreamShape},
 };
 
@@ -21,6 +21,8 @@ pub(super) enum Command {
     Source(Source),
     /// The publisher closed its side; its mailbox is told when its frames are done.
     Finish(Arc<Mailbox>),
+    /// A recording begins with the frames that follow.
+    Record(RecordingTap),
     /// Settings or actor change.
     Update {
         settings: SessionSettings,
@@ -50,7 +52,7 @@ impl Command {
                 actor_revision: *actor_revision,
             }),
             Self::Recenter { source, .. } => Some(Recorded::Recenter(*source)),
-            Self::Source(_) | Self::Finish(_) | Self::End => None,
+            Self::Source(_) | Self::Finish(_) | Self::Record(_) | Self::End => None,
         }
     }
 }

@@ -35,6 +35,12 @@ pub enum SessionError {
     /// Another principal's publisher owns the session.
     #[error("a publisher of another principal owns the session; an operator may take it over")]
     OwnedByAnother,
+    /// The session was taken over a moment ago.
+    #[error("the session was taken over less than a second ago; it may be again in {} ms", retry_after.as_millis())]
+    TakeoverRate {
+        /// When it may be again.
+        retry_after: Duration,
+    },
     /// Another grant came first.
     #[error("epoch {epoch} is older than the session's epoch {current}")]
     Fenced {

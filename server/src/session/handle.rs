@@ -1,6 +1,10 @@
 //! What the rest of the server holds of a session.
 
-use std::{collections::BTreeSet, sync::Arc, time::SystemTime};
+use std::{
+    collections::BTreeSet,
+    sync::Arc,
+    time::{Duration, SystemTime},
+};
 
 use frontalis_analysis::{analyzer::NeutralSource, face::actor::Actor};
 use tokio::sync::oneshot;
@@ -150,13 +154,19 @@ impl SessionHandle {
         Ok(self.answered(is_done).await??)
     }
 
-    /// Hands everything on that comes in from now on, before it is acknowledged; an earlier recording ends.
+    /// Hands everything on that comes in from now on, before it is acknowledged; an earlier recording ends. `pre_roll` of what
+    /// came before goes first, as far as it is kept: ten seconds at most.
     ///
     /// # Errors
     ///
     /// [`SessionError`] when the session takes no requests any more.
-    pub fn record(&self) -> Result<RecordingFeed, SessionError> {
-        self.shared.intake().record()
+    pub fn record(&self, pre_roll: Duration) -> Result<RecordingFeed, SessionError> {
+        let now_nanos = self.shared.clock.now_nanos();
+        let since_nanos = now_nanos.saturating_sub(crate::clock::nanos(pre_roll));
+        let since_nanos = (!pre_roll.is_zero()).then_some(since_nanos);
+        let feed = self.shared.intake().record(since_nanos)?;
+        self.shared.work.notify_one();
+        Ok(feed)
     }
 
     /// Hands on nothing more.
@@ -167,6 +177,11 @@ impl SessionHandle {
     /// All that was handed on is on stable storage, or never will be: publishers wait for it no longer.
     pub fn recording_settled(&self) {
         self.shared.intake().recording_settled();
+    }
+
+    /// Whether it took no frame yet in this run.
+    pub fn has_no_frames(&self) -> bool {
+        self.shared.intake().next_expected() == 0
     }
 
     /// Whether somebody records it.
@@ -220,11 +235,10 @@ impl SessionHandle {
     /// # Errors
     ///
     /// [`SessionError::Owned`] when another publisher holds the lease, [`SessionError::OwnedByAnother`] when it may not be
-    /// pushed out, or why the session takes no publisher.
+    /// pushed out, [`SessionError::TakeoverRate`] when somebody was a moment ago, or why the session takes no publisher.
     pub fn check_claim(&self, claim: &Claim) -> Result<(), SessionError> {
         let now_nanos = self.shared.clock.now_nanos();
-        let intake = self.shared.intake();
-        intake.check_claim(claim, now_nanos)
+        self.shared.intake().admit(claim, now_nanos)
     }
 
     /// Gives the session to a publisher; an older publication is fenced.

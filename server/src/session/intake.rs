@@ -10,12 +10,15 @@ use std::{
 };
 
 use super::{
+    capture_order::CaptureOrder,
+    clock_estimate::{ClockEstimate, ClockExchange},
     command::{Command, Source},
     error::SessionError,
     frame::{IncomingFrame, Rejection},
     mailbox::Mailbox,
     order::{FrameOrder, Verdict},
     passed::{Found, PassedFrames},
+    pre_roll::PreRoll,
     publication::{Claim, Grant, Ingest, Offer, PublishEnd, Wait},
     queue::{MAX_WAITING_COMMANDS, WaitingFrame, Work, WorkQueue},
     rate::{Admission, RateLimit, RateMeter},
@@ -107,13 +110,16 @@ impl Owner {
     }
 }
 
+/// A session changes hands by takeover at most this often (BAD_INPUT I10).
+const TAKEOVER_EVERY: Duration = Duration::from_secs(1);
+
 /// A session's publisher, frame order and queue.
 #[derive(Debug)]
 pub(super) struct Intake {
     lease: Option<Lease>,
     newest_epoch: u64,
     last_owner: Option<Owner>,
-    last_capture_nanos: Option<i64>,
+    capture_order: CaptureOrder,
     order: FrameOrder,
     queue: WorkQueue,
     limit: RateLimit,
@@ -122,8 +128,11 @@ pub(super) struct Intake {
     closed: Option<Closed>,
     tape: Tape,
     passed: PassedFrames,
+    clock: ClockEstimate,
     /// Of whoever published last.
     last_mailbox: Weak<Mailbox>,
+    /// No earlier may somebody take over again.
+    next_takeover_nanos: i64,
     pub(super) publisher_timeout: Duration,
     /// A door that is broken on purpose: the search for violations has to find it out.
     #[cfg(test)]
@@ -132,32 +141,48 @@ pub(super) struct Intake {
 
 impl Intake {
     pub(super) fn new(limits: IntakeLimits, publisher_timeout: Duration, now_nanos: i64) -> Self {
+        let pre_roll = PreRoll::new(nanos(limits.resend_span), limits.budget.clone());
         Self {
             lease: None,
             newest_epoch: 0,
             last_owner: None,
-            last_capture_nanos: None,
+            capture_order: CaptureOrder::default(),
             order: FrameOrder::new(nanos(limits.resend_span)),
             queue: WorkQueue::new(limits.waiting_frames, limits.waiting_bytes, limits.budget),
             limit: RateLimit::new(limits.live_rate_hz, now_nanos),
             meter: RateMeter::default(),
             counts: IntakeCounts::default(),
             closed: None,
-            tape: Tape::default(),
             passed: PassedFrames::default(),
+            tape: Tape::new(pre_roll),
+            clock: ClockEstimate::default(),
             last_mailbox: Weak::new(),
+            next_takeover_nanos: i64::MIN,
             publisher_timeout,
             #[cfg(test)]
             forgets_epochs: false,
         }
     }
 
-    /// Hands on all that comes in from now on; an earlier recording ends.
-    pub(super) fn record(&mut self) -> Result<RecordingFeed, SessionError> {
+    /// Hands on all that comes in from now on, after what came since `pre_roll_since_nanos`; an earlier recording ends.
+    pub(super) fn record(
+        &mut self,
+        pre_roll_since_nanos: Option<i64>,
+    ) -> Result<RecordingFeed, SessionError> {
         self.check_open()?;
+        self.check_room_for_a_command()?;
         let next_frame = self.order.next_expected().max(1);
         self.passed = PassedFrames::from(next_frame);
-        Ok(self.tape.start(next_frame, self.accepted_through()))
+        let last_capture_nanos = self.capture_order.last_nanos();
+        let accepted_through = self.accepted_through();
+        let (tap, feed) = self.tape.start(
+            next_frame,
+            accepted_through,
+            last_capture_nanos,
+            pre_roll_since_nanos,
+        );
+        self.queue.push_command(Command::Record(tap));
+        Ok(feed)
     }
 
     /// Hands on nothing more. Until [`Self::recording_settled`] the publisher still waits for stable storage.
@@ -201,14 +226,31 @@ impl Intake {
         self.tape.note(recorded);
     }
 
+    /// Whether a publisher may start now: as [`Self::check_claim`] says, and whoever pushes another out in turn.
+    pub(super) fn admit(&mut self, claim: &Claim, now_nanos: i64) -> Result<(), SessionError> {
+        self.check_claim(claim, now_nanos)?;
+        if self.lease_of_another(claim, now_nanos).is_none() {
+            return Ok(());
+        }
+        let left_nanos = self.next_takeover_nanos.saturating_sub(now_nanos);
+        if left_nanos > 0 {
+            let retry_after = Duration::from_nanos(left_nanos.unsigned_abs());
+            return Err(SessionError::TakeoverRate { retry_after });
+        }
+        self.next_takeover_nanos = now_nanos.saturating_add(nanos(TAKEOVER_EVERY));
+        Ok(())
+    }
+
+    fn lease_of_another(&self, claim: &Claim, now_nanos: i64) -> Option<&Lease> {
+        let lease = self.lease.as_ref()?;
+        let is_in_force = now_nanos < lease.expires_nanos;
+        (is_in_force && lease.owner != Owner::of(claim)).then_some(lease)
+    }
+
     /// Whether a publisher may start.
     pub(super) fn check_claim(&self, claim: &Claim, now_nanos: i64) -> Result<(), SessionError> {
         self.check_open()?;
-        let in_force = self
-            .lease
-            .as_ref()
-            .filter(|it| now_nanos < it.expires_nanos);
-        let Some(lease) = in_force.filter(|it| it.owner != Owner::of(claim)) else {
+        let Some(lease) = self.lease_of_another(claim, now_nanos) else {
             return Ok(());
         };
         if !claim.takeover {
@@ -242,7 +284,8 @@ impl Intake {
         self.fence(grant.epoch);
         self.newest_epoch = grant.epoch;
         let owner = Owner::of(&grant.claim);
-        self.note_owner(&owner);
+        let is_other = self.note_owner(&owner);
+        self.clock = ClockEstimate::default();
         let mailbox = Arc::new(Mailbox::new(grant.epoch));
         self.last_mailbox = Arc::downgrade(&mailbox);
         self.lease = Some(Lease {
@@ -258,6 +301,8 @@ impl Intake {
             epoch: grant.epoch,
             shape: shape.clone(),
             rate_hz: grant.rate_hz,
+            is_continued: false,
+            is_other,
         });
         self.queue.push_command(Command::Source(Source {
             shape,
@@ -276,13 +321,15 @@ impl Intake {
         }
     }
 
-    fn note_owner(&mut self, owner: &Owner) {
-        if self.last_owner.as_ref().is_some_and(|it| it != owner) {
+    /// Whether it is another one than before.
+    fn note_owner(&mut self, owner: &Owner) -> bool {
+        let is_other = self.last_owner.as_ref().is_some_and(|it| it != owner);
+        if is_other {
             self.order.publisher_changed();
-            // Another publisher's clock says nothing about this one's.
-            self.last_capture_nanos = None;
+            self.capture_order.another_clock();
         }
         self.last_owner = Some(owner.clone());
+        is_other
     }
 
     /// Judges a frame and takes it when it is new and there is room.
@@ -422,8 +469,10 @@ impl Intake {
         self.counts.received += 1;
         self.counts.partial_markers += frame.n_partial_markers as u64;
         self.meter.count(now_nanos);
-        let previous = self.last_capture_nanos.replace(frame.capture_time_nanos);
-        frame.tag.time_non_monotonic = previous.is_some_and(|it| frame.capture_time_nanos <= it);
+        let clock = self.clock.report();
+        frame.tag.capture_time_server_nanos =
+            clock.map(|it| it.on_server_clock(frame.capture_time_nanos));
+        frame.tag.time_non_monotonic = self.capture_order.is_broken_by(frame.capture_time_nanos);
         if let Some(lease) = &mut self.lease {
             lease.n_rejects_in_a_row = 0;
         }
@@ -457,6 +506,19 @@ impl Intake {
             return Err(ended(mailbox));
         }
         Ok(Offer::Rejected(rejection))
+    }
+
+    /// Takes in an exchange with the publisher's clock.
+    pub(super) fn exchange(
+        &mut self,
+        mailbox: &Mailbox,
+        exchange: ClockExchange,
+    ) -> Result<(), PublishEnd> {
+        self.check_lease(mailbox)?;
+        if let Some(report) = self.clock.add(exchange) {
+            self.tape.clock(report);
+        }
+        Ok(())
     }
 
     /// Lets the lease live on.
@@ -502,17 +564,12 @@ impl Intake {
         told
     }
 
-    /// Ends the lease of a publication whose neutral face could not be aligned, and gives up its waiting frames.
+    /// Ends the lease of a publication whose frames cannot be solved; those that wait are given up where they are solved.
     pub(super) fn give_up(&mut self, mailbox: &Mailbox, end: PublishEnd) {
-        let cause = match end {
-            PublishEnd::TooManyRejects { .. } => GapCause::Rejected,
-            _ => GapCause::NotAligned,
-        };
         mailbox.end(end);
         if self.check_lease(mailbox).is_ok() {
             self.lease = None;
         }
-        self.queue.give_up_frames(cause);
     }
 
     /// Refuses a frame that was taken before it could be seen to be unusable.
@@ -595,6 +652,7 @@ impl Intake {
         status.frames_shed = counts.shed;
         status.frames_missing = counts.missing;
         status.markers_partial = counts.partial_markers;
+        status.clock = self.clock.report();
         status.publisher = self.lease.as_ref().map(|it| it.owner.publisher.to_string());
         if let Some(Closed::Failed { reason }) = &self.closed {
             status.failure = Some(reason.clone());

@@ -17,16 +17,19 @@ use frontalis_analysis::{
         marker::{FrameIndex, MarkerFrame},
     },
     marker_analysis::alignment::{Alignment, AlignmentError},
+    numeric::tape::TapeError,
     space::PerformancePoint,
 };
 
 use super::{
     figures::Judgement,
     frame::IncomingFrame,
+    intake::MAX_CONSECUTIVE_REJECTS,
     queue::WaitingFrame,
-    settings::{RestoredAlignment, SessionSpec, StreamShape},
+    settings::{RestoredAlignment, SessionSettings, SessionSpec, StreamShape},
+    starting_point::{StartingPoint, StreamPoint},
 };
-use crate::hub::{Gap, GapCause, SampleTag};
+use crate::hub::{Gap, GapCause, Outgoing, PublishedSample, SampleTag};
 
 /// Most frames and gaps that wait for an alignment. The analyzer keeps far fewer frames; this bounds what a stream of
 /// gaps could add.
@@ -61,6 +64,8 @@ pub(super) enum Step {
     NotAligned(AlignmentError),
     /// The frame's work panicked; it gave a gap.
     Panicked,
+    /// The frame came after those that ended its publication; it gave a gap.
+    GivenUp,
 }
 
 #[derive(Debug)]
@@ -77,6 +82,10 @@ pub(super) struct Pipeline {
     /// Whether a neutral face was asked for that was not tried yet. It outlives the analyzer, which is made anew for another
     /// stream and after a panic.
     recenter_requested: bool,
+    /// What frames give until the next request: those before them have ended their publication.
+    giving_up: Option<GapCause>,
+    /// Frames at another scale, in a row.
+    n_scale_jumps: u32,
     source: Option<SourceOfFrames>,
     awaiting: VecDeque<Awaiting>,
     solved: Vec<CurveSample>,
@@ -98,9 +107,70 @@ impl Pipeline {
             settings: spec.settings.marker.clone(),
             restored: spec.restored.clone(),
             recenter_requested: false,
+            giving_up: None,
+            n_scale_jumps: 0,
             source: None,
             awaiting: VecDeque::new(),
             solved: Vec::new(),
+        }
+    }
+
+    /// Goes on from `point`; `actor` is of its revision. Frames that wait for a neutral face there are not answered again.
+    pub(super) fn restore(actor: Arc<Actor>, point: StartingPoint) -> Result<Self, TapeError> {
+        let settings = point.settings.marker;
+        let mut restored = point.alignment;
+        let source = match point.stream {
+            None => None,
+            Some(stream) => {
+                let alignment = restored.take().map(|it| it.alignment);
+                let (unit, rate_hz) = (stream.shape.unit, stream.rate_hz);
+                Some(SourceOfFrames {
+                    analyzer: MarkerAnalyzer::restore(
+                        Arc::clone(&actor),
+                        settings.clone(),
+                        unit,
+                        rate_hz,
+                        alignment,
+                        stream.state,
+                    )?,
+                    stream_idx_of_marker: stream_indices(&actor, &stream.shape),
+                    shape: stream.shape,
+                    rate_hz,
+                })
+            }
+        };
+        Ok(Self {
+            actor,
+            settings,
+            restored,
+            recenter_requested: point.is_recentering,
+            giving_up: point.giving_up,
+            n_scale_jumps: point.n_scale_jumps,
+            source,
+            awaiting: VecDeque::new(),
+            solved: Vec::new(),
+        })
+    }
+
+    /// What the next frames are solved from.
+    pub(super) fn starting_point(
+        &mut self,
+        settings: SessionSettings,
+        actor_revision: u32,
+    ) -> StartingPoint {
+        let stream = self.source.as_mut().map(|source| StreamPoint {
+            shape: source.shape.clone(),
+            rate_hz: source.rate_hz,
+            state: source.analyzer.state(),
+        });
+        StartingPoint {
+            settings,
+            actor_revision,
+            alignment: self.alignment_with_shape(),
+            stream,
+            is_recentering: self.recenter_requested,
+            giving_up: self.giving_up,
+            n_scale_jumps: self.n_scale_jumps,
         }
     }
 
@@ -112,6 +182,7 @@ impl Pipeline {
         rate_hz: f64,
         outcomes: &mut Vec<Outcome>,
     ) -> bool {
+        self.giving_up = None;
         if let Some(source) = self.source.as_mut().filter(|it| it.shape == shape) {
             source.rate_hz = rate_hz;
             source.analyzer.set_rate_hz(rate_hz);
@@ -165,6 +236,10 @@ impl Pipeline {
             tag,
             ..
         } = waiting.frame;
+        if let Some(cause) = self.giving_up {
+            self.pass_gaps(vec![Gap::of_frame(number, cause)], outcomes);
+            return Step::GivenUp;
+        }
         let Some(source) = &mut self.source else {
             // Frames follow their source through the queue, so this does not happen; if it did, no frame may be silent.
             self.pass_gaps(vec![Gap::of_frame(number, GapCause::NotAligned)], outcomes);
@@ -188,6 +263,7 @@ impl Pipeline {
             Ok(Ok(progress)) => {
                 let was_tried = matches!(progress, Progress::Aligned | Progress::RecenterFailed);
                 self.recenter_requested &= !was_tried;
+                self.count_scale_jump(progress == Progress::ScaleJump);
                 if progress == Progress::ScaleJump {
                     self.reject_newest(outcomes);
                 }
@@ -197,6 +273,7 @@ impl Pipeline {
             Ok(Err(error)) => {
                 // The request was tried; the analyzer waits for the next one, or collects anyway.
                 self.recenter_requested = false;
+                self.giving_up = Some(GapCause::NotAligned);
                 self.solved.clear();
                 self.give_up_awaiting(outcomes);
                 Step::NotAligned(error)
@@ -206,6 +283,23 @@ impl Pipeline {
                 Step::Panicked
             }
         }
+    }
+
+    /// Many in a row end the publication (CONTRACTS D-10).
+    fn count_scale_jump(&mut self, is_one: bool) {
+        self.n_scale_jumps = if is_one {
+            self.n_scale_jumps.saturating_add(1)
+        } else {
+            0
+        };
+        if self.n_scale_jumps >= MAX_CONSECUTIVE_REJECTS {
+            self.giving_up = Some(GapCause::Rejected);
+        }
+    }
+
+    /// Whether the frames that follow are not looked at until the next request.
+    pub(super) fn is_giving_up(&self) -> bool {
+        self.giving_up.is_some()
     }
 
     /// Passes numbers without frames, behind what is still awaited.
@@ -296,6 +390,7 @@ impl Pipeline {
     /// Takes the next usable frames as the neutral face. An alignment holds on until the new one is known; without one,
     /// frames that were collected so far give gaps.
     pub(super) fn recenter(&mut self, outcomes: &mut Vec<Outcome>) {
+        self.giving_up = None;
         self.give_up_awaiting(outcomes);
         self.recenter_requested = true;
         if let Some(source) = &mut self.source {
@@ -305,6 +400,7 @@ impl Pipeline {
 
     /// Takes the quietest frames seen so far as the neutral face, in place of any that was asked for.
     pub(super) fn recenter_on_quietest(&mut self) -> Result<(), QuietestError> {
+        self.giving_up = None;
         let source = self.source.as_mut().ok_or(QuietestError::NotAligned)?;
         source.analyzer.recenter_on_quietest()?;
         self.recenter_requested = false;
@@ -329,6 +425,7 @@ impl Pipeline {
 
     /// Changes settings or actor between two frames; an alignment is carried over.
     pub(super) fn update(&mut self, actor: Arc<Actor>, settings: MarkerSettings) {
+        self.giving_up = None;
         if let Some(source) = &mut self.source {
             source.analyzer.update(Arc::clone(&actor), settings.clone());
             source.stream_idx_of_marker = stream_indices(&actor, &source.shape);
@@ -347,11 +444,39 @@ impl Pipeline {
         }
     }
 
+    /// The same with its stream.
+    pub(super) fn alignment_with_shape(&self) -> Option<RestoredAlignment> {
+        Some(RestoredAlignment {
+            alignment: self.alignment()?.clone(),
+            shape: self.shape()?.clone(),
+        })
+    }
+
+    pub(super) fn actor(&self) -> &Arc<Actor> {
+        &self.actor
+    }
+
     /// The stream that the alignment holds for.
     pub(super) fn shape(&self) -> Option<&StreamShape> {
         match &self.source {
             Some(source) => Some(&source.shape),
             None => self.restored.as_ref().map(|it| &it.shape),
+        }
+    }
+}
+
+impl Outcome {
+    /// On its way to whoever listens.
+    pub(super) fn into_outgoing(self, solved_time_nanos: i64, actor_revision: u32) -> Outgoing {
+        match self {
+            Self::Gap(gap) => Outgoing::Gap(gap),
+            Self::Sample(sample, note) => Outgoing::Sample(Box::new(PublishedSample {
+                sequence: 0,
+                sample: *sample,
+                tag: note.tag,
+                solved_time_nanos,
+                actor_revision,
+            })),
         }
     }
 }

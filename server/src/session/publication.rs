@@ -5,6 +5,7 @@ use std::sync::Arc;
 use frontalis_analysis::{marker_analysis::alignment::AlignmentError, space::LengthUnit};
 
 use super::{
+    clock_estimate::ClockExchange,
     frame::{IncomingFrame, Rejection},
     mailbox::Mailbox,
     settings::StreamShape,
@@ -198,6 +199,16 @@ impl Publication {
         self.check()?;
         let now_nanos = self.session.clock.now_nanos();
         self.session.intake().renew(&self.mailbox, now_nanos)
+    }
+
+    /// Takes in an exchange with the publisher's clock.
+    ///
+    /// # Errors
+    ///
+    /// [`PublishEnd`] when the publication is over.
+    pub fn exchange(&self, exchange: ClockExchange) -> Result<(), PublishEnd> {
+        self.check()?;
+        self.session.intake().exchange(&self.mailbox, exchange)
     }
 
     /// Whether the publication is still in force.

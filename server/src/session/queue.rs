@@ -113,45 +113,27 @@ impl WorkQueue {
         true
     }
 
-    /// Turns every waiting frame up to the next command into a gap.
-    pub(super) fn give_up_frames(&mut self, cause: GapCause) {
-        let mut place = 0;
-        loop {
-            match self.work.get(place) {
-                None | Some(Work::Command(_)) => return,
-                Some(Work::Gaps(_)) => place += 1,
-                // The gap joins the one before it, so that this place holds the next thing to look at.
-                Some(Work::Frame(_)) => place = self.replace_by_gap(place, cause) + 1,
-            }
-        }
-    }
-
-    /// Returns where the gap is now: it joins the gaps just before it, so that the queue does not grow by shedding.
-    fn replace_by_gap(&mut self, place: usize, cause: GapCause) -> usize {
+    /// The gap joins the gaps just before it, so that the queue does not grow by shedding.
+    fn replace_by_gap(&mut self, place: usize, cause: GapCause) {
         let Some(Work::Frame(waiting)) = self.work.get(place) else {
-            return place;
+            return;
         };
         let cost_bytes = waiting.frame.cost_bytes();
         let number = waiting.frame.number;
         let gaps_before = waiting.gaps_before.clone();
         self.note_taken(cost_bytes);
         let before = place.checked_sub(1);
-        let joined = match before.and_then(|it| self.work.get_mut(it)) {
-            Some(Work::Gaps(gaps)) => Some(gaps),
-            _ => None,
-        };
+        let joined = before.and_then(|it| self.work.get_mut(it));
         let lost = gaps_before
             .into_iter()
             .chain([Gap::of_frame(number, cause)]);
-        if let (Some(gaps), Some(before)) = (joined, before) {
+        if let Some(Work::Gaps(gaps)) = joined {
             lost.for_each(|gap| gap.append_to(gaps));
             self.work.remove(place);
-            before
         } else {
             let mut gaps = Vec::new();
             lost.for_each(|gap| gap.append_to(&mut gaps));
             self.work[place] = Work::Gaps(gaps);
-            place
         }
     }
 }

@@ -5,10 +5,16 @@
 //! finds it full takes no frame until there is room (CONTRACTS U-1).
 
 use bytes::Bytes;
-use frontalis_analysis::{analyzer::NeutralSource, marker_analysis::alignment::Alignment};
+use frontalis_analysis::{
+    analyzer::NeutralSource, marker_analysis::alignment::Alignment, timecode::Timecode,
+};
 use tokio::sync::mpsc;
 
-use super::settings::{SessionSettings, StreamShape};
+use super::{
+    clock_estimate::ClockReport,
+    settings::{SessionSettings, StreamShape},
+    starting_point::StartingPoint,
+};
 use crate::name::PublisherId;
 
 /// Things that may wait for the recorder of one session.
@@ -31,6 +37,11 @@ pub enum Recorded {
         /// Revision of the actor.
         actor_revision: u32,
     },
+    /// What the first frame of the recording is solved from. It comes when the session's task has done all that waited
+    /// before, so that frames may come first.
+    StartingPoint(Box<StartingPoint>),
+    /// The publisher's clock stands so from now on.
+    Clock(ClockReport),
     /// Another neutral face was asked for.
     Recenter(NeutralSource),
     /// The neutral face is known.
@@ -51,6 +62,8 @@ pub struct RecordedFrame {
     pub number: u64,
     /// When it was taken, server clock.
     pub received_nanos: i64,
+    /// Time of day on the stage, when it was valid.
+    pub timecode: Option<Timecode>,
     /// The message that brought it.
     pub sent: Bytes,
     /// Whether it came after a later one, and takes no part in the curves (CONTRACTS D-11).
@@ -68,6 +81,10 @@ pub struct RecordedSource {
     pub shape: StreamShape,
     /// Declared rate.
     pub rate_hz: f64,
+    /// It published before the recording began.
+    pub is_continued: bool,
+    /// Another one than published before, with another clock.
+    pub is_other: bool,
 }
 
 /// The session's end of a recording.
@@ -78,14 +95,23 @@ pub(super) struct RecordingTap(mpsc::Sender<Recorded>);
 pub struct RecordingFeed {
     /// First frame number that the session did not have when the recording began.
     pub next_frame: u64,
+    /// Capture time of the frame before, where the next one's can be compared with it.
+    pub last_capture_nanos: Option<i64>,
+    /// Frames that came before, as far as they were asked for and are still there.
+    pub pre_roll: Vec<RecordedFrame>,
     pub(super) received: mpsc::Receiver<Recorded>,
 }
 
 /// Both ends of a recording that begins with frame `next_frame`.
-pub(super) fn recording(next_frame: u64) -> (RecordingTap, RecordingFeed) {
+pub(super) fn recording(
+    next_frame: u64,
+    last_capture_nanos: Option<i64>,
+) -> (RecordingTap, RecordingFeed) {
     let (sender, received) = mpsc::channel(MAX_WAITING);
     let feed = RecordingFeed {
         next_frame,
+        last_capture_nanos,
+        pre_roll: Vec::new(),
         received,
     };
     (RecordingTap(sender), feed)
@@ -106,6 +132,12 @@ impl RecordingTap {
 }
 
 impl RecordingFeed {
+    /// First frame number of the recording, the pre-roll included.
+    pub fn first_frame(&self) -> u64 {
+        let first = self.pre_roll.first();
+        first.map_or(self.next_frame, |it| it.number)
+    }
+
     /// The next thing that came in; `None` when the recording is over. May be dropped while it waits.
     pub async fn next(&mut self) -> Option<Recorded> {
         self.received.recv().await

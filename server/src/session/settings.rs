@@ -21,6 +21,10 @@ pub struct SessionSettings {
     pub stale_after: Option<Duration>,
     /// Silence after which another publisher may start without `takeover`; 10 s.
     pub publisher_timeout: Duration,
+    /// Whether a run is recorded from its first frame on.
+    pub record: bool,
+    /// Whether that recording keeps raw images.
+    pub record_images: bool,
 }
 
 impl Default for SessionSettings {
@@ -29,6 +33,8 @@ impl Default for SessionSettings {
             marker: MarkerSettings::default(),
             stale_after: None,
             publisher_timeout: Duration::from_secs(10),
+            record: false,
+            record_images: false,
         }
     }
 }

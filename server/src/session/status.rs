@@ -2,6 +2,7 @@
 
 use frontalis_analysis::marker_analysis::{neutral_watch::NeutralDoubt, range::MuscleRange};
 
+use super::clock_estimate::ClockReport;
 use crate::hub::{Latency, SessionState, SubscriberStatus};
 
 /// A session's figures at one moment.
@@ -50,6 +51,8 @@ pub struct SessionStatus {
     pub ranges: Vec<ControlRange>,
     /// Streamed markers that the actor does not have.
     pub unknown_markers: Vec<String>,
+    /// How its publisher's clock stands to the server's; `None` before eight exchanges.
+    pub clock: Option<ClockReport>,
     /// Who owns the session.
     pub publisher: Option<String>,
 }

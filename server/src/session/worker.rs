@@ -23,11 +23,11 @@ use super::{
     pipeline::{Outcome, Pipeline, Step},
     publication::PublishEnd,
     queue::{WaitingFrame, Work},
-    recording::Recorded,
+    recording::{Recorded, RecordingTap},
     settings::{SessionEvent, SessionSpec},
     shared::Shared,
 };
-use crate::hub::{Closing, Outgoing, PublishedSample, SessionState};
+use crate::hub::{Closing, Outgoing, SessionState};
 
 /// Work done before other tasks of the runtime get their turn.
 const WORK_PER_TURN: u32 = 16;
@@ -91,8 +91,6 @@ struct Worker {
     rate_hz: f64,
     last_received_nanos: i64,
     panics: PanicCount,
-    /// Frames at another scale, in a row.
-    n_scale_jumps: u32,
     judging: JudgingPace,
     outcomes: Vec<Outcome>,
     outgoing: Vec<Outgoing>,
@@ -117,7 +115,6 @@ impl Worker {
             rate_hz: 1.0,
             last_received_nanos: 0,
             panics: PanicCount::default(),
-            n_scale_jumps: 0,
             judging: JudgingPace::default(),
             outcomes: Vec::new(),
             outgoing: Vec::new(),
@@ -187,16 +184,13 @@ impl Worker {
         let step = self.pipeline.push(waiting, now_nanos, &mut self.outcomes);
         if let Step::Progress(progress) = &step {
             self.enter(state_after(*progress));
-            if *progress != Progress::ScaleJump {
-                self.n_scale_jumps = 0;
-            }
         }
         self.publish();
         match step {
             Step::Progress(Progress::Aligned) => self.aligned().await,
             Step::Progress(Progress::RecenterFailed) => self.not_recentered(),
             Step::Progress(Progress::ScaleJump) => self.scale_jumped(number),
-            Step::Progress(_) => {}
+            Step::Progress(_) | Step::GivenUp => {}
             Step::NotAligned(error) => self.not_aligned(error),
             Step::Panicked => return self.panicked(number).await,
         }
@@ -212,23 +206,15 @@ impl Worker {
         let mut passages = VecDeque::new();
         let mut figures = self.shared.figures();
         for outcome in self.outcomes.drain(..) {
-            self.outgoing.push(match outcome {
-                Outcome::Gap(gap) => Outgoing::Gap(gap),
-                Outcome::Sample(sample, note) => {
-                    figures.sampled(&sample);
-                    self.judging.sampled();
-                    if !note.was_collected {
-                        passages.push_back((note.received_nanos, note.started_nanos));
-                    }
-                    Outgoing::Sample(Box::new(PublishedSample {
-                        sequence: 0,
-                        sample: *sample,
-                        tag: note.tag,
-                        solved_time_nanos: solved_nanos,
-                        actor_revision: self.actor_revision,
-                    }))
+            if let Outcome::Sample(sample, note) = &outcome {
+                figures.sampled(sample);
+                self.judging.sampled();
+                if !note.was_collected {
+                    passages.push_back((note.received_nanos, note.started_nanos));
                 }
-            });
+            }
+            let outgoing = outcome.into_outgoing(solved_nanos, self.actor_revision);
+            self.outgoing.push(outgoing);
         }
         drop(figures);
         self.shared.hub.publish(&mut self.outgoing);
@@ -280,7 +266,6 @@ impl Worker {
 
     /// The capture's unit has changed: the frame is refused, and after many in a row the publication ends (CONTRACTS D-10).
     fn scale_jumped(&mut self, number: u64) {
-        self.n_scale_jumps += 1;
         let Some(mailbox) = &self.mailbox else {
             return;
         };
@@ -298,7 +283,7 @@ impl Worker {
                 detail,
             },
         );
-        if self.n_scale_jumps >= MAX_CONSECUTIVE_REJECTS {
+        if self.pipeline.is_giving_up() {
             let n_rejects = MAX_CONSECUTIVE_REJECTS;
             intake.give_up(mailbox, PublishEnd::TooManyRejects { n_rejects });
         }
@@ -347,6 +332,7 @@ impl Worker {
         match command {
             Command::Source(source) => self.read_from(source).await,
             Command::Finish(mailbox) => mailbox.finish(),
+            Command::Record(tap) => self.begin_recording(&tap),
             Command::Recenter { source, done } => {
                 let recentered = self.recenter(source).await;
                 // Whoever asked may have gone.
@@ -379,6 +365,13 @@ impl Worker {
             }
         }
         Next::More
+    }
+
+    /// Tells a recording what its first frame is solved from.
+    fn begin_recording(&mut self, tap: &RecordingTap) {
+        let settings = self.shared.figures().settings.clone();
+        let point = self.pipeline.starting_point(settings, self.actor_revision);
+        tap.record(Recorded::StartingPoint(Box::new(point)));
     }
 
     async fn recenter(&mut self, source: NeutralSource) -> Result<(), QuietestError> {

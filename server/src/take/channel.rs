@@ -81,29 +81,17 @@ pub(super) fn declare<W: std::io::Write>(writer: &mut Writer<NoSeek<W>>) -> mcap
     Ok(())
 }
 
-/// The bytes before the first chunk of a file that grows.
-///
-/// # Errors
-///
-/// When the writer refuses, which writing to memory gives no reason for.
-pub(super) fn head() -> mcap::McapResult<Vec<u8>> {
-    let mut writer = options()
-        .use_chunks(false)
-        .create(NoSeek::new(Vec::new()))?;
-    declare(&mut writer)?;
-    Ok(writer.into_inner().into_inner())
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::take::head::growing_head;
 
     #[test]
     fn channels_have_the_ids_that_messages_name() {
-        let head = head().unwrap();
+        let head = growing_head().unwrap();
         let mut found = Vec::new();
         for record in mcap::read::LinearReader::new_with_options(
-            &head,
+            head,
             mcap::read::Options::IgnoreEndMagic.into(),
         )
         .unwrap()

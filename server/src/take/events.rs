@@ -1,16 +1,19 @@
 //! What happens to a session, as a take's file holds it.
 
-use frontalis_analysis::{analyzer::NeutralSource, marker_analysis::alignment::Alignment};
+use frontalis_analysis::analyzer::NeutralSource;
 use frontalis_proto::v1::{self, take_event::Event};
 
 use crate::{
-    catalogue::StoredAlignment,
-    session::{Recorded, StreamShape},
-    wire::{common, session::effective},
+    session::Recorded,
+    wire::{
+        analysis_state::{self, alignment_to_wire},
+        capture, common,
+        session::effective,
+    },
 };
 
 /// What came in, unless it is a frame.
-pub(super) fn recorded(recorded: &Recorded) -> Option<Event> {
+pub(super) fn recorded(recorded: &Recorded, unix_offset_nanos: i64) -> Option<Event> {
     match recorded {
         Recorded::Frame(_) => None,
         Recorded::Source(source) => Some(Event::Source(v1::TakeSource {
@@ -19,6 +22,8 @@ pub(super) fn recorded(recorded: &Recorded) -> Option<Event> {
             unit: common::length_unit_to_wire(source.shape.unit).into(),
             marker_names: source.shape.marker_names.clone(),
             rate_hz: source.rate_hz,
+            continued: source.is_continued,
+            is_other: source.is_other,
         })),
         Recorded::Change {
             settings,
@@ -34,7 +39,19 @@ pub(super) fn recorded(recorded: &Recorded) -> Option<Event> {
             alignment,
             shape,
             actor_revision,
-        } => Some(aligned(alignment, shape, *actor_revision)),
+        } => Some(Event::Alignment(alignment_to_wire(
+            alignment,
+            shape,
+            *actor_revision,
+        ))),
+        Recorded::Clock(report) => Some(Event::Clock(v1::TakeClock {
+            clock: Some(capture::clock_report(report)),
+            server_time_nanos: report.server_time_nanos,
+            unix_offset_nanos,
+        })),
+        Recorded::StartingPoint(point) => {
+            Some(Event::AnalysisState(analysis_state::to_wire(point)))
+        }
     }
 }
 
@@ -43,21 +60,4 @@ fn neutral_source(source: NeutralSource) -> v1::NeutralSource {
         NeutralSource::NextFrames => v1::NeutralSource::NextFrames,
         NeutralSource::QuietestFrames => v1::NeutralSource::QuietestFrames,
     }
-}
-
-/// The neutral face that frames are solved against.
-fn aligned(alignment: &Alignment, shape: &StreamShape, actor_revision: u32) -> Event {
-    let stored = StoredAlignment {
-        alignment: alignment.clone(),
-        unit: shape.unit,
-        marker_names: shape.marker_names.clone(),
-        actor_revision,
-    };
-    Event::Alignment(v1::TakeAlignment {
-        actor_revision,
-        unit: common::length_unit_to_wire(shape.unit).into(),
-        marker_names: shape.marker_names.clone(),
-        // An alignment in use has nothing that has no text.
-        alignment_json: stored.to_text().unwrap_or_default(),
-    })
 }

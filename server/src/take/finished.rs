@@ -80,6 +80,7 @@ pub fn finished(fs: &dyn Fs, file: &Path) -> Result<Rewritten, TakeFileError> {
     let mut found = Rewritten::default();
     while let Some(message) = messages.next()? {
         found.figures.count(message.channel, &message.data);
+        found.last_time_nanos = message.time_nanos;
     }
     found.n_bytes = messages.offset;
     Ok(found)

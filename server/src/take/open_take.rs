@@ -2,7 +2,7 @@
 
 use std::{
     io,
-    path::PathBuf,
+    path::{Path, PathBuf},
     sync::{Arc, Mutex, MutexGuard, PoisonError},
 };
 
@@ -10,16 +10,18 @@ use frontalis_proto::v1;
 use prost::Message as _;
 
 use super::{
-    channel::{self, Channel},
+    channel::Channel,
     chunk::{ChunkBuffer, Message},
+    disk_room::IngestRate,
     figures::TakeFigures,
     growth::{Growth, Written},
+    head::growing_head,
 };
 use crate::{
     executor::Workers,
     fs::{AppendFile, Fs},
     name::TakeId,
-    session::SessionHandle,
+    session::{RecordedFrame, SessionHandle},
 };
 
 /// How a recording goes.
@@ -48,6 +50,7 @@ pub(super) struct OpenTake {
     pending: Mutex<Pending>,
     /// `None` once nothing is written any more.
     file: tokio::sync::Mutex<Option<Box<dyn AppendFile>>>,
+    ingest: Arc<IngestRate>,
 }
 
 #[derive(Debug)]
@@ -60,23 +63,34 @@ struct Pending {
     written_before: Written,
     /// Of all that was added.
     figures: TakeFigures,
+    /// Of what is on stable storage.
+    committed: TakeFigures,
+    /// Of what is on stable storage.
     n_bytes: u64,
     condition: Condition,
 }
 
 impl OpenTake {
     /// A take whose file exists with its head.
-    fn new(id: TakeId, session: SessionHandle, file: Box<dyn AppendFile>, n_bytes: u64) -> Self {
+    fn new(
+        id: TakeId,
+        session: SessionHandle,
+        file: Box<dyn AppendFile>,
+        n_bytes: u64,
+        ingest: Arc<IngestRate>,
+    ) -> Self {
         Self {
             id,
             growth: Arc::new(Growth::new(session.run(), n_bytes)),
             session,
+            ingest,
             pending: Mutex::new(Pending {
                 chunk: ChunkBuffer::default(),
                 next_sequences: [0; 3],
                 written: Written::default(),
                 written_before: Written::default(),
                 figures: TakeFigures::default(),
+                committed: TakeFigures::default(),
                 n_bytes,
                 condition: Condition::Sound,
             }),
@@ -91,25 +105,27 @@ impl OpenTake {
         fs: Arc<dyn Fs>,
         dir: PathBuf,
         workers: &Workers,
+        ingest: Arc<IngestRate>,
     ) -> io::Result<Self> {
         let name = file_name(&id);
         let made = workers.run(move || {
-            let head = channel::head().map_err(io::Error::other)?;
-            let mut file = fs.create(&dir.join(name))?;
-            file.append(&head)?;
-            file.sync()?;
-            fs.sync_dir(&dir)?;
-            Ok::<_, io::Error>((file, head.len() as u64))
+            let begun = begin(&*fs, &dir, &name);
+            let is_ours = |error: &io::Error| error.kind() != io::ErrorKind::AlreadyExists;
+            if begun.as_ref().is_err_and(is_ours) {
+                // What cannot be removed now is a take that never began, and is removed at the next start.
+                drop(fs.remove(&dir.join(&name)));
+            }
+            begun
         });
         let (file, n_bytes) = made.await?;
-        Ok(Self::new(id, session, file, n_bytes))
+        Ok(Self::new(id, session, file, n_bytes, ingest))
     }
 
-    pub(super) fn add_frame(&self, number: u64, sent: &[u8], time_nanos: u64) {
+    pub(super) fn add_frame(&self, frame: &RecordedFrame, time_nanos: u64) {
         let mut pending = self.pending();
-        pending.written.add_frame(number);
-        pending.figures.count_frame(number);
-        pending.add(Channel::Markers, sent, time_nanos);
+        pending.written.add_frame(frame.number);
+        pending.figures.count_frame(frame.number, frame.timecode);
+        pending.add(Channel::Markers, &frame.sent, time_nanos);
     }
 
     pub(super) fn add_sample(&self, sample: &v1::CurveSample, time_nanos: u64) {
@@ -125,9 +141,15 @@ impl OpenTake {
         self.pending().add(Channel::Events, &data, time_nanos);
     }
 
+    /// Of all that was added, on stable storage or not.
+    pub(super) fn figures_added(&self) -> TakeFigures {
+        self.pending().figures
+    }
+
+    /// What is on stable storage, the length of the file that far, and how it goes.
     pub(super) fn figures(&self) -> (TakeFigures, u64, Condition) {
         let pending = self.pending();
-        (pending.figures, pending.n_bytes, pending.condition)
+        (pending.committed, pending.n_bytes, pending.condition)
     }
 
     pub(super) fn has_pending(&self) -> bool {
@@ -140,7 +162,7 @@ impl OpenTake {
         let Some(mut file) = writing.take() else {
             return;
         };
-        let (chunk, before, through) = {
+        let (chunk, before, through, figures) = {
             let mut pending = self.pending();
             if pending.chunk.is_empty() {
                 drop(pending);
@@ -149,7 +171,12 @@ impl OpenTake {
             }
             let before = pending.written_before;
             pending.written_before = pending.written;
-            (pending.chunk.take(), before, pending.written)
+            (
+                pending.chunk.take(),
+                before,
+                pending.written,
+                pending.figures,
+            )
         };
         let n_bytes = chunk.len() as u64;
         let written = workers.run(move || {
@@ -160,7 +187,12 @@ impl OpenTake {
         match written.await {
             Ok(file) => {
                 *writing = Some(file);
-                self.pending().n_bytes += n_bytes;
+                {
+                    let mut pending = self.pending();
+                    pending.n_bytes += n_bytes;
+                    pending.committed = figures;
+                }
+                self.ingest.count(n_bytes);
                 self.growth.commit(n_bytes, before, through);
                 self.session.set_durable_through(through.frames_through);
             }
@@ -188,6 +220,16 @@ impl OpenTake {
     fn pending(&self) -> MutexGuard<'_, Pending> {
         self.pending.lock().unwrap_or_else(PoisonError::into_inner)
     }
+}
+
+/// A new file with its head, both on stable storage.
+fn begin(fs: &dyn Fs, dir: &Path, name: &str) -> io::Result<(Box<dyn AppendFile>, u64)> {
+    let head = growing_head().map_err(io::Error::other)?;
+    let mut file = fs.create(&dir.join(name))?;
+    file.append(head)?;
+    file.sync()?;
+    fs.sync_dir(dir)?;
+    Ok((file, head.len() as u64))
 }
 
 impl Pending {

@@ -39,7 +39,7 @@ impl Places {
         let size = open.size()?;
         match Scan::start(open, size.min(n_bytes)) {
             Ok(scan) => Ok(Self::Growing(scan)),
-            Err(ScanError::Head) => Ok(Self::Finished(FinishedPlaces {
+            Err(ScanError::Final) => Ok(Self::Finished(FinishedPlaces {
                 file: fs.open(file)?,
                 offset: MAGIC_BYTES,
                 size,

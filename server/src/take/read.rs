@@ -64,7 +64,7 @@ impl TakeReader {
                 scan,
                 next_event: 0,
             })),
-            Err(ScanError::Head) => {
+            Err(ScanError::Final) => {
                 let finished = FinishedFile::start(fs.open(file)?);
                 Ok(Self(Form::Finished(Box::new(finished))))
             }

@@ -16,13 +16,14 @@ use tokio::sync::{Notify, watch};
 use tokio_util::{sync::CancellationToken, task::TaskTracker};
 
 use super::{
+    disk_room::{DiskRoom, IngestRate, LOOK_EVERY},
     figures::TakeFigures,
     finished::finished,
     frame_lookup::{FrameLookup, Known},
     growth::Growth,
     open_take::{Condition, OpenTake, file_name},
-    rewrite::{Rewritten, TakeFileError, rewrite},
-    scan::ScanError,
+    recovery::final_form,
+    rewrite::{Rewritten, TakeFileError},
     scribe::{Progress, Scribe, unix_nanos},
 };
 use crate::{
@@ -47,9 +48,6 @@ const REWRITES_AT_ONCE: usize = 8;
 /// Pieces of takes that are read at once, for subscribers and publishers: each holds a chunk of a file meanwhile.
 const READS_AT_ONCE: usize = 4;
 
-/// Least room on the disk for a new take, bytes (CONTRACTS U-9).
-const LEAST_FREE_BYTES: u64 = 1 << 30;
-
 /// Why a take does not start.
 #[derive(Debug, thiserror::Error)]
 pub enum StartError {
@@ -63,11 +61,8 @@ pub enum StartError {
     #[error(transparent)]
     Subscribe(#[from] SubscribeError),
     /// The disk is almost full.
-    #[error("{free_bytes} bytes are free, a take needs at least {LEAST_FREE_BYTES}")]
-    DiskLow {
-        /// What is left.
-        free_bytes: u64,
-    },
+    #[error("{} bytes are free, a take needs {}", .0.free_bytes, .0.needed_bytes)]
+    DiskLow(DiskRoom),
     /// The file could not be made.
     #[error("the file of the take could not be made")]
     Io(#[from] io::Error),
@@ -115,6 +110,8 @@ struct Inner {
     reads: Workers,
     dirty: Arc<Notify>,
     tasks: TaskTracker,
+    ingest: Arc<IngestRate>,
+    room: watch::Sender<DiskRoom>,
     takes: Mutex<BTreeMap<TakeId, Recording>>,
 }
 
@@ -136,10 +133,41 @@ impl Recorder {
             reads: threads.workers(READS_AT_ONCE),
             dirty: Arc::default(),
             tasks: TaskTracker::new(),
+            ingest: Arc::default(),
+            room: watch::Sender::default(),
             takes: Mutex::default(),
         };
         Self {
             inner: Arc::new(inner),
+        }
+    }
+
+    /// The room on the disk, as [`Self::watch_disk`] finds it.
+    pub fn room(&self) -> watch::Receiver<DiskRoom> {
+        self.inner.room.subscribe()
+    }
+
+    /// Looks at the disk now.
+    pub async fn look_at_disk(&self) -> DiskRoom {
+        let (fs, dir) = (Arc::clone(&self.inner.fs), self.inner.dir.clone());
+        let free_bytes = self.run(move || fs.free_bytes(&dir)).await;
+        let room = self.inner.ingest.room(free_bytes);
+        let change = |known: &mut DiskRoom| std::mem::replace(known, room) != room;
+        self.inner.room.send_if_modified(change);
+        room
+    }
+
+    /// Looks at the disk now and then, until `stopped`.
+    pub async fn watch_disk(self, stopped: CancellationToken) {
+        let mut looks = tokio::time::interval(LOOK_EVERY);
+        let mut last = tokio::time::Instant::now();
+        loop {
+            tokio::select! {
+                _ = looks.tick() => {}
+                () = stopped.cancelled() => return,
+            }
+            self.inner.ingest.look(&mut last);
+            self.look_at_disk().await;
         }
     }
 
@@ -169,7 +197,7 @@ impl Recorder {
         }
     }
 
-    /// Starts to record `session` as take `id`; `header` says what is not the session's to say. What the session acknowledges
+    /// Starts to record `session` as take `id`, from `pre_roll` before now on as far as it is kept; `header` says what is not the session's to say. What the session acknowledges
     /// after this returned is in the take. What is returned tells when it is over and on stable storage.
     ///
     /// # Errors
@@ -180,8 +208,12 @@ impl Recorder {
         id: TakeId,
         session: SessionHandle,
         header: v1::TakeHeader,
+        pre_roll: Duration,
     ) -> Result<watch::Receiver<Option<EndedTake>>, StartError> {
-        self.check_disk().await?;
+        let room = self.look_at_disk().await;
+        if !room.is_enough() {
+            return Err(StartError::DiskLow(room));
+        }
         if let Some(other) = self.take_of(session.id()) {
             return Err(StartError::Recorded(other));
         }
@@ -192,9 +224,10 @@ impl Recorder {
             Arc::clone(&inner.fs),
             inner.dir.clone(),
             &inner.flushes,
+            Arc::clone(&inner.ingest),
         );
         let take = Arc::new(take.await?);
-        let started = self.start_scribe(&take, header);
+        let started = self.start_scribe(&take, header, pre_roll);
         if started.is_err() {
             take.close().await;
             inner.fs.remove(&inner.dir.join(file_name(&id)))?;
@@ -206,6 +239,7 @@ impl Recorder {
         &self,
         take: &Arc<OpenTake>,
         header: v1::TakeHeader,
+        pre_roll: Duration,
     ) -> Result<watch::Receiver<Option<EndedTake>>, StartError> {
         let inner = &self.inner;
         let session = &take.session;
@@ -221,14 +255,21 @@ impl Recorder {
         let samples = session.hub().subscribe(SubscribeSpec {
             name: take.id.resource(),
             protocol: "take",
-            delivery: Delivery::EveryFrame(StartAt::Sequence(next_sequence)),
+            delivery: Delivery::EveryFrame(if pre_roll.is_zero() {
+                StartAt::Sequence(next_sequence)
+            } else {
+                // Samples of frames that are not in the take are passed over.
+                StartAt::Oldest
+            }),
             run: None,
         })?;
-        let feed = session.record()?;
+        let feed = session.record(pre_roll)?;
         let now = unix_nanos(&inner.clock, inner.clock.now_nanos());
         let header = v1::TakeHeader {
             next_sequence,
             next_frame: feed.next_frame,
+            last_capture_time_nanos: feed.last_capture_nanos,
+            pre_roll_from: feed.pre_roll.first().map_or(0, |it| it.number),
             ..header
         };
         take.add_event(Event::Header(header), now);
@@ -241,6 +282,7 @@ impl Recorder {
         drop(takes);
         let mut scribe = Scribe {
             take: Arc::clone(take),
+            first_frame: feed.first_frame(),
             feed,
             samples,
             clock: inner.clock,
@@ -263,7 +305,7 @@ impl Recorder {
         take.session.stop_recording();
         let now_nanos = inner.clock.now_nanos();
         let stop_time_nanos = now_nanos.saturating_add(inner.clock.unix_offset_nanos());
-        let (figures, ..) = take.figures();
+        let figures = take.figures_added();
         let stop = v1::TakeStop {
             stop_time: Some(timestamp(stop_time_nanos)),
             n_frames: figures.n_frames,
@@ -289,11 +331,23 @@ impl Recorder {
         match self.try_rewrite(id).await {
             Ok(rewritten) => Some(rewritten),
             Err(error) => {
-                let error = &error as &dyn std::error::Error;
-                tracing::error!(take = %id, error, "a take stays as it was recorded");
-                None
+                tracing::error!(
+                    take = %id,
+                    error = &error as &dyn std::error::Error,
+                    "a take stays as it was recorded"
+                );
+                self.replaced(id).await
             }
         }
+    }
+
+    /// A failure that came after the last step leaves the final form.
+    async fn replaced(&self, id: &TakeId) -> Option<Rewritten> {
+        let (fs, file) = (
+            Arc::clone(&self.inner.fs),
+            self.inner.dir.join(file_name(id)),
+        );
+        self.rework(move || finished(&*fs, &file).ok()).await
     }
 
     /// Brings the file of a take that is not under way into its final form, in which a crash may have left it already.
@@ -304,11 +358,8 @@ impl Recorder {
     pub async fn try_rewrite(&self, id: &TakeId) -> Result<Rewritten, TakeFileError> {
         let (fs, dir) = (Arc::clone(&self.inner.fs), self.inner.dir.clone());
         let name = file_name(id);
-        let work = move || match rewrite(&*fs, &dir, &name) {
-            Err(TakeFileError::Scan(ScanError::Head)) => finished(&*fs, &dir.join(&name)),
-            other => other,
-        };
-        self.inner.rewrites.run(work).await
+        let work = move || final_form(&*fs, &dir, &name);
+        self.rework(work).await
     }
 
     /// Ends a recording; returns when all of it is on stable storage. `None` when no such take is under way.
@@ -392,13 +443,13 @@ impl Recorder {
         self.inner.flushes.run(call).await
     }
 
-    async fn check_disk(&self) -> Result<(), StartError> {
-        let (fs, dir) = (Arc::clone(&self.inner.fs), self.inner.dir.clone());
-        let free_bytes = self.inner.flushes.run(move || fs.free_bytes(&dir)).await?;
-        if free_bytes < LEAST_FREE_BYTES {
-            return Err(StartError::DiskLow { free_bytes });
-        }
-        Ok(())
+    /// Runs something longer with a take's file: reading all of it, or writing it anew.
+    pub async fn rework<T, F>(&self, work: F) -> T
+    where
+        F: FnOnce() -> T + Send + 'static,
+        T: Send + 'static,
+    {
+        self.inner.rewrites.run(work).await
     }
 }
 

@@ -3,8 +3,8 @@
 use std::io;
 
 use super::{
-    channel,
     chunk::{self, CHUNK_START_BYTES, Message},
+    head::{self, Form},
 };
 use crate::fs::ReadFile;
 
@@ -32,8 +32,23 @@ pub enum ScanError {
     #[error(transparent)]
     Io(#[from] io::Error),
     /// It does not begin as a take does.
-    #[error("the file does not begin as a take of this version does")]
+    #[error("the file does not begin as a take does, or its beginning is damaged")]
     Head,
+    /// A newer server wrote it; it is left as it is.
+    #[error(
+        "the file has format {found} of takes, this server knows formats up to {}",
+        head::FORMAT
+    )]
+    NewerFormat {
+        /// The format of the file.
+        found: u32,
+    },
+    /// It ends within its head: a crash came before the take had begun.
+    #[error("the file ends before its take had begun")]
+    NotBegun,
+    /// It has its final form already.
+    #[error("the file has its final form")]
+    Final,
     /// The writer of heads failed.
     #[error("the head of a take cannot be made")]
     Format(#[from] mcap::McapError),
@@ -55,19 +70,18 @@ impl Scan {
     ///
     /// # Errors
     ///
-    /// [`ScanError::Head`] when it is not that of a growing take.
-    pub fn start(file: Box<dyn ReadFile>, size: u64) -> Result<Self, ScanError> {
-        let head = channel::head()?;
-        let mut scan = Self {
-            file,
-            offset: 0,
-            size,
-        };
-        if scan.bytes(head.len())? != head {
-            return Err(ScanError::Head);
+    /// [`ScanError::Final`] when it does not grow any more, or that its head is none.
+    pub fn start(mut file: Box<dyn ReadFile>, size: u64) -> Result<Self, ScanError> {
+        let whole = file.size()?;
+        let head = head::read(&mut *file, whole)?;
+        if head.form == Form::Final {
+            return Err(ScanError::Final);
         }
-        scan.offset = head.len() as u64;
-        Ok(scan)
+        Ok(Self {
+            file,
+            offset: head.n_bytes,
+            size,
+        })
     }
 
     /// The next piece; `None` at the end.
@@ -143,24 +157,8 @@ impl Scan {
         Ok(None)
     }
 
-    fn bytes(&mut self, n_bytes: usize) -> io::Result<Vec<u8>> {
-        self.bytes_at(self.offset, n_bytes)
-    }
-
-    /// As many of the bytes as there are.
     fn bytes_at(&mut self, offset: u64, n_bytes: usize) -> io::Result<Vec<u8>> {
-        let left = usize::try_from(self.size.saturating_sub(offset)).unwrap_or(usize::MAX);
-        let mut bytes = vec![0; n_bytes.min(left)];
-        let mut n_read = 0;
-        while n_read < bytes.len() {
-            let place = offset + n_read as u64;
-            match self.file.read_at(place, &mut bytes[n_read..])? {
-                0 => break,
-                n => n_read += n,
-            }
-        }
-        bytes.truncate(n_read);
-        Ok(bytes)
+        head::bytes_at(&mut *self.file, offset, n_bytes, self.size)
     }
 }
 

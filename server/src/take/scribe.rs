@@ -17,7 +17,7 @@ use crate::{
 const LAST_SAMPLES: Duration = Duration::from_secs(2);
 
 /// What is kept of every sample.
-const DETAIL: SampleDetail = SampleDetail {
+pub(super) const DETAIL: SampleDetail = SampleDetail {
     with_uncertainty: true,
     with_markers: false,
 };
@@ -26,6 +26,8 @@ const DETAIL: SampleDetail = SampleDetail {
 pub(super) struct Scribe {
     pub(super) take: Arc<OpenTake>,
     pub(super) feed: RecordingFeed,
+    /// Of the take, its pre-roll included.
+    pub(super) first_frame: u64,
     pub(super) samples: Subscription,
     pub(super) clock: ServerClock,
     /// Told after everything that was added.
@@ -53,6 +55,10 @@ enum Next {
 impl Scribe {
     /// Writes until the recording is over and all of its frames are answered for.
     pub(super) async fn run(&mut self) {
+        for frame in std::mem::take(&mut self.feed.pre_roll) {
+            let time_nanos = unix_nanos(&self.clock, frame.received_nanos);
+            self.take.add_frame(&frame, time_nanos);
+        }
         loop {
             tokio::select! {
                 biased;
@@ -98,9 +104,9 @@ impl Scribe {
             if !frame.is_late {
                 self.progress.last_frame = frame.number;
             }
-            return self.take.add_frame(frame.number, &frame.sent, time_nanos);
+            return self.take.add_frame(frame, time_nanos);
         }
-        if let Some(event) = events::recorded(recorded) {
+        if let Some(event) = events::recorded(recorded, self.clock.unix_offset_nanos()) {
             self.take.add_event(event, self.now());
         }
     }
@@ -127,7 +133,7 @@ impl Scribe {
 
     /// Only what belongs to recorded frames: samples of frames before them may still be on their way.
     fn write_update(&mut self, update: &Update) {
-        let (first, now) = (self.feed.next_frame, self.now());
+        let (first, now) = (self.first_frame, self.now());
         let mut gaps = update.gaps.iter().filter(|it| it.last >= first).peekable();
         for sample in &update.samples {
             let number = sample.sample.frame.0;

@@ -101,6 +101,12 @@ pub fn timestamp(unix_nanos: i64) -> Timestamp {
     }
 }
 
+/// Unix nanoseconds of a moment, saturating.
+pub fn unix_nanos(moment: &Timestamp) -> i64 {
+    let seconds = moment.seconds.saturating_mul(1_000_000_000);
+    seconds.saturating_add(i64::from(moment.nanos))
+}
+
 /// A figure of a header or a status: finite, whatever it was (CONTRACTS N-0).
 pub fn finite(figure: f64) -> f64 {
     if figure.is_nan() {
@@ -195,5 +201,6 @@ mod tests {
     fn timestamps_before_1970_have_positive_nanos() {
         let before = timestamp(-1);
         assert_eq!((before.seconds, before.nanos), (-1, 999_999_999));
+        assert_eq!(unix_nanos(&before), -1);
     }
 }

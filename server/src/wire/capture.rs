@@ -7,18 +7,20 @@ use std::{
     hash::{DefaultHasher, Hasher},
 };
 
+use bytes::Bytes;
 use frontalis_analysis::space::{LengthUnit, PerformancePoint};
 use frontalis_proto::v1;
 use prost::Message as _;
 
 use super::{
+    actor::finite,
     common,
     invalid::{FieldError, FieldProblem},
 };
 use crate::{
     hub::SampleTag,
     name::{PublisherId, SessionId},
-    session::{IncomingFrame, Ingest, Rejection, StreamShape},
+    session::{ClockExchange, ClockReport, IncomingFrame, Ingest, Rejection, StreamShape},
 };
 
 /// Most markers in a stream.
@@ -123,6 +125,22 @@ fn check_marker_names(names: &[String]) -> Result<(), FieldError> {
 ///
 /// [`Rejection`] with the reason of the bad-input table; the stream goes on.
 pub fn frame(sent: &v1::MarkerFrame, shape: &StreamShape) -> Result<IncomingFrame, Rejection> {
+    Ok(IncomingFrame {
+        content_hash: content_hash(sent),
+        sent: sent.encode_to_vec().into(),
+        ..recorded_frame(sent, shape)?
+    })
+}
+
+/// The same of a frame that is neither compared with others nor recorded again.
+///
+/// # Errors
+///
+/// [`Rejection`] as of [`frame`].
+pub fn recorded_frame(
+    sent: &v1::MarkerFrame,
+    shape: &StreamShape,
+) -> Result<IncomingFrame, Rejection> {
     let reject = |reason, detail: String| Rejection {
         number: sent.number,
         reason,
@@ -162,12 +180,13 @@ pub fn frame(sent: &v1::MarkerFrame, shape: &StreamShape) -> Result<IncomingFram
         tag: SampleTag {
             source_frame: sent.source_frame,
             timecode,
+            capture_time_server_nanos: None,
             timecode_invalid: sent.timecode.is_some() && timecode.is_none(),
             time_non_monotonic: false,
         },
-        content_hash: content_hash(sent),
+        content_hash: 0,
         n_partial_markers,
-        sent: sent.encode_to_vec().into(),
+        sent: Bytes::new(),
     })
 }
 
@@ -250,6 +269,38 @@ pub fn content_hash(sent: &v1::MarkerFrame) -> u64 {
         hasher.write_u32(coordinate.to_bits());
     }
     hasher.finish()
+}
+
+/// An exchange with the publisher's clock, whose answer came at `now_nanos`.
+pub fn clock_exchange(echo: &v1::ClockEcho, now_nanos: i64) -> ClockExchange {
+    ClockExchange {
+        server_send: echo.server_send_nanos,
+        client_receive: echo.client_receive_nanos,
+        client_send: echo.client_send_nanos,
+        server_receive: now_nanos,
+    }
+}
+
+/// How a publisher's clock stands, on the wire.
+pub fn clock_report(report: &ClockReport) -> v1::ClockReport {
+    v1::ClockReport {
+        offset_nanos: report.offset_nanos,
+        round_trip_nanos: report.round_trip_nanos,
+        uncertainty_nanos: report.uncertainty_nanos,
+        drift_ppm: finite(report.drift_ppm),
+    }
+}
+
+/// What a take says of its publisher's clock.
+pub fn recorded_clock(recorded: &v1::TakeClock) -> Option<ClockReport> {
+    let clock = recorded.clock?;
+    Some(ClockReport {
+        offset_nanos: clock.offset_nanos,
+        server_time_nanos: recorded.server_time_nanos,
+        drift_ppm: clock.drift_ppm,
+        round_trip_nanos: clock.round_trip_nanos,
+        uncertainty_nanos: clock.uncertainty_nanos,
+    })
 }
 
 /// A rejection on the wire.

@@ -3,6 +3,7 @@
 use frontalis_analysis::{
     face::region::FaceRegion,
     space::{HeadPose, LengthUnit},
+    timecode::{Counting, Label, Timecode, TimecodeRate},
 };
 use frontalis_proto::v1;
 
@@ -10,7 +11,7 @@ use super::{
     actor::finite,
     invalid::{FieldError, FieldProblem},
 };
-use crate::hub::{SessionState, Timecode};
+use crate::hub::SessionState;
 
 /// The unit that a publisher must declare: a wrong guess is off by a factor of ten.
 ///
@@ -60,34 +61,38 @@ pub fn session_state(state: SessionState) -> v1::SessionState {
     }
 }
 
-/// A time of day that can occur; `None` when it cannot.
+/// A time of day that can occur; `None` when it cannot (CONTRACTS D-34).
 pub fn timecode(sent: &v1::Timecode) -> Option<Timecode> {
-    let timecode = Timecode {
+    let counting = if sent.drop_frame {
+        Counting::Drop
+    } else {
+        Counting::NonDrop
+    };
+    let rate = TimecodeRate::new(sent.rate_numerator, sent.rate_denominator, counting).ok()?;
+    let label = Label {
         hours: sent.hours,
         minutes: sent.minutes,
         seconds: sent.seconds,
         frames: sent.frames,
-        rate_numerator: sent.rate_numerator,
-        rate_denominator: sent.rate_denominator,
-        drop_frame: sent.drop_frame,
-        sub_frame: sent.sub_frame,
-        user_bits: sent.user_bits,
     };
-    timecode.checked()
+    let timecode = Timecode::new(label, rate).ok()?;
+    let timecode = timecode.with_sub_frame(sent.sub_frame).ok()?;
+    Some(timecode.with_user_bits(sent.user_bits))
 }
 
 /// The time of day on the wire.
 pub fn timecode_to_wire(timecode: &Timecode) -> v1::Timecode {
+    let (label, rate) = (timecode.label(), timecode.rate());
     v1::Timecode {
-        hours: timecode.hours,
-        minutes: timecode.minutes,
-        seconds: timecode.seconds,
-        frames: timecode.frames,
-        rate_numerator: timecode.rate_numerator,
-        rate_denominator: timecode.rate_denominator,
-        drop_frame: timecode.drop_frame,
-        sub_frame: timecode.sub_frame,
-        user_bits: timecode.user_bits,
+        hours: label.hours,
+        minutes: label.minutes,
+        seconds: label.seconds,
+        frames: label.frames,
+        rate_numerator: rate.numerator(),
+        rate_denominator: rate.denominator(),
+        drop_frame: rate.counting() == Counting::Drop,
+        sub_frame: timecode.sub_frame(),
+        user_bits: timecode.user_bits(),
     }
 }
 
@@ -144,5 +149,58 @@ mod tests {
         };
         assert_eq!(timecode_to_wire(&timecode(&sent).unwrap()), sent);
         assert!(timecode(&v1::Timecode::default()).is_none());
+    }
+
+    fn at(hours: u32, minutes: u32, seconds: u32, frames: u32) -> v1::Timecode {
+        v1::Timecode {
+            hours,
+            minutes,
+            seconds,
+            frames,
+            rate_numerator: 30_000,
+            rate_denominator: 1_001,
+            drop_frame: true,
+            ..v1::Timecode::default()
+        }
+    }
+
+    #[test]
+    fn a25_the_last_frame_of_a_day_occurs_and_the_next_does_not() {
+        assert!(timecode(&at(23, 59, 59, 29)).is_some());
+        assert!(timecode(&at(25, 0, 0, 0)).is_none());
+        assert!(timecode(&at(23, 59, 59, 30)).is_none());
+    }
+
+    #[test]
+    fn a25_dropped_numbers_do_not_occur() {
+        assert!(timecode(&at(1, 1, 0, 0)).is_none());
+        assert!(timecode(&at(1, 1, 0, 1)).is_none());
+        assert!(timecode(&at(1, 1, 0, 2)).is_some());
+        assert!(timecode(&at(1, 10, 0, 0)).is_some());
+        let at_60 = |frames| v1::Timecode {
+            rate_numerator: 60_000,
+            ..at(1, 1, 0, frames)
+        };
+        assert!(timecode(&at_60(3)).is_none());
+        assert!(timecode(&at_60(4)).is_some());
+    }
+
+    #[test]
+    fn a25_frames_are_dropped_at_two_rates_only_and_fractions_are_fractions() {
+        let pal = v1::Timecode {
+            rate_numerator: 25,
+            rate_denominator: 1,
+            ..at(0, 0, 0, 3)
+        };
+        assert!(timecode(&pal).is_none());
+        let counted = |sub_frame| v1::Timecode {
+            drop_frame: false,
+            sub_frame,
+            ..pal
+        };
+        assert!(timecode(&counted(0.5)).is_some());
+        for sub_frame in [f32::NAN, -0.1, 1.0, f32::INFINITY] {
+            assert!(timecode(&counted(sub_frame)).is_none());
+        }
     }
 }

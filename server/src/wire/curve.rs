@@ -216,17 +216,33 @@ pub fn state_to_wire(state: &StreamState) -> v1::StreamState {
 
 /// A gap on the wire.
 pub fn gap_to_wire(gap: &Gap) -> v1::Gap {
-    let cause = match gap.cause {
+    v1::Gap {
+        first: gap.first,
+        last: gap.last,
+        cause: gap_cause_to_wire(gap.cause).into(),
+    }
+}
+
+/// A gap's cause on the wire.
+pub fn gap_cause_to_wire(cause: GapCause) -> v1::GapCause {
+    match cause {
         GapCause::CaptureSkip => v1::GapCause::CaptureSkip,
         GapCause::Rejected => v1::GapCause::Rejected,
         GapCause::Shed => v1::GapCause::Shed,
         GapCause::PublisherChange => v1::GapCause::PublisherChange,
         GapCause::NotAligned => v1::GapCause::NotAligned,
-    };
-    v1::Gap {
-        first: gap.first,
-        last: gap.last,
-        cause: cause.into(),
+    }
+}
+
+/// The cause that a session gives; `None` for any other.
+pub fn gap_cause(number: i32) -> Option<GapCause> {
+    match v1::GapCause::try_from(number) {
+        Ok(v1::GapCause::CaptureSkip) => Some(GapCause::CaptureSkip),
+        Ok(v1::GapCause::Rejected) => Some(GapCause::Rejected),
+        Ok(v1::GapCause::Shed) => Some(GapCause::Shed),
+        Ok(v1::GapCause::PublisherChange) => Some(GapCause::PublisherChange),
+        Ok(v1::GapCause::NotAligned) => Some(GapCause::NotAligned),
+        Ok(v1::GapCause::Unspecified | v1::GapCause::Corrupt) | Err(_) => None,
     }
 }
 

@@ -18,7 +18,7 @@ use crate::{
     session::{SessionHandle, SessionSettings},
 };
 
-pub use settings::{apply, check_objective, effective};
+pub use settings::{apply, check_objective, effective, of_effective};
 pub use status::state_name;
 
 /// A request to create a session, checked.
@@ -116,6 +116,8 @@ pub fn to_stored(settings: &SessionSettings) -> StoredSettings {
         marker: settings.marker.clone(),
         stale_after: settings.stale_after,
         publisher_timeout: settings.publisher_timeout,
+        record: settings.record,
+        record_images: settings.record_images,
     }
 }
 
@@ -125,6 +127,8 @@ pub fn from_stored(stored: &StoredSettings) -> SessionSettings {
         marker: stored.marker.clone(),
         stale_after: stored.stale_after,
         publisher_timeout: stored.publisher_timeout,
+        record: stored.record,
+        record_images: stored.record_images,
     }
 }
 

@@ -1,17 +1,20 @@
 //! Takes on the wire, and what people may say of them.
 
+use std::time::Duration;
+
 use frontalis_proto::v1;
 
 use super::{
     actor::timestamp,
+    common::timecode_to_wire,
     invalid::{FieldError, FieldProblem},
 };
 use crate::catalogue::{TakeLabels, TakeRow, TakeState};
 
 /// Longest slate and gesture, code points.
-const MAX_LABEL: usize = 128;
+pub const MAX_LABEL: usize = 128;
 /// Longest notes, code points.
-const MAX_NOTES: usize = 4_096;
+pub const MAX_NOTES: usize = 4_096;
 
 /// A take on the wire.
 pub fn take(row: &TakeRow) -> v1::Take {
@@ -37,17 +40,22 @@ pub fn take(row: &TakeRow) -> v1::Take {
         n_bytes: row.content.n_bytes,
         recovered: row.recovered,
         gesture,
-        start_timecode: None,
+        start_timecode: row.start_timecode.as_ref().map(timecode_to_wire),
         state: state(row.state).into(),
         circled,
         notes,
-        with_images: false,
+        with_images: row.with_images,
+        resolved_from: row
+            .resolved_from
+            .as_ref()
+            .map_or_else(String::new, |it| it.resource()),
     }
 }
 
 fn state(state: TakeState) -> v1::TakeState {
     match state {
         TakeState::Recording => v1::TakeState::Recording,
+        TakeState::Recovering => v1::TakeState::Recovering,
         TakeState::Closed => v1::TakeState::Closed,
         TakeState::Degraded => v1::TakeState::Degraded,
         TakeState::TruncatedDiskFull => v1::TakeState::TruncatedDiskFull,
@@ -55,24 +63,44 @@ fn state(state: TakeState) -> v1::TakeState {
     }
 }
 
-/// What is said of a take that begins.
+/// A take that begins.
+#[derive(Clone, Debug, Default)]
+pub struct NewTake {
+    /// What is said of it.
+    pub labels: TakeLabels,
+    /// Raw images are kept too.
+    pub with_images: bool,
+    /// So much of what came before.
+    pub pre_roll: Duration,
+}
+
+/// Longest pre-roll: no session holds more.
+const MAX_PRE_ROLL: Duration = Duration::from_secs(10);
+
+/// Checks what is asked of a take that begins.
 ///
 /// # Errors
 ///
 /// [`FieldError`] names the first field that is wrong.
-pub fn labels(sent: &v1::StartTakeRequest) -> Result<TakeLabels, FieldError> {
-    if sent.with_images {
-        return Err(FieldError::new("with_images", FieldProblem::NotImplemented));
-    }
-    if sent.pre_roll.is_some() {
-        return Err(FieldError::new("pre_roll", FieldProblem::NotImplemented));
-    }
-    Ok(TakeLabels {
-        slate: text("slate", &sent.slate, MAX_LABEL)?,
-        number: sent.number,
-        gesture: text("gesture", &sent.gesture, MAX_LABEL)?,
-        circled: false,
-        notes: String::new(),
+pub fn new_take(sent: &v1::StartTakeRequest) -> Result<NewTake, FieldError> {
+    Ok(NewTake {
+        labels: TakeLabels {
+            slate: text("slate", &sent.slate, MAX_LABEL)?,
+            number: sent.number,
+            gesture: text("gesture", &sent.gesture, MAX_LABEL)?,
+            circled: false,
+            notes: String::new(),
+        },
+        with_images: sent.with_images,
+        pre_roll: sent.pre_roll.map(pre_roll).transpose()?.unwrap_or_default(),
+    })
+}
+
+fn pre_roll(sent: pbjson_types::Duration) -> Result<Duration, FieldError> {
+    let given = Duration::try_from(sent).ok();
+    given.filter(|it| *it <= MAX_PRE_ROLL).ok_or_else(|| {
+        let expected = "0 to 10 s";
+        FieldError::new("pre_roll", FieldProblem::Duration { expected })
     })
 }
 

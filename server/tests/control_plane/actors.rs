@@ -242,15 +242,4 @@ async fn what_later_versions_fill_says_so() {
         refusal(improve),
         (Code::Unimplemented, "NOT_IMPLEMENTED".into())
     );
-    let mut takes = v1::take_service_client::TakeServiceClient::new(stage.channel.clone());
-    let with_images = v1::StartTakeRequest {
-        session: "sessions/any".to_owned(),
-        with_images: true,
-        ..v1::StartTakeRequest::default()
-    };
-    let start = takes.start_take(with_images).await;
-    assert_eq!(
-        refusal(start),
-        (Code::Unimplemented, "NOT_IMPLEMENTED".into())
-    );
 }

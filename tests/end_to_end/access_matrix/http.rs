@@ -126,7 +126,9 @@ impl Operation {
 
     async fn ask(&self, stage: &Stage, caller: &Caller, path: &str, id: &str) -> Outcome {
         let is_list = self.rule().contains("/List");
-        let uri = if is_list {
+        let uri = if self.rule().ends_with("/ListTakes") {
+            format!("{path}?pageSize={PAGE_SIZE}&session=sessions/{id}")
+        } else if is_list {
             format!("{path}?pageSize={PAGE_SIZE}")
         } else {
             path.to_owned()
@@ -162,7 +164,14 @@ impl Operation {
                 );
                 (json, body.into_bytes())
             }
-            "UpdateSession" | "RecenterSession" | "EndSession" => (json, b"{}".to_vec()),
+            "UpdateSession" | "RecenterSession" | "EndSession" | "StopTake" | "ResolveTake" => {
+                (json, b"{}".to_vec())
+            }
+            "StartTake" => (
+                json,
+                format!(r#"{{"session":"sessions/{id}"}}"#).into_bytes(),
+            ),
+            "UpdateTake" => (json, br#"{"take":{"circled":true}}"#.to_vec()),
             "PublishMarkers" => {
                 let start = publish_start(String::new(), self.variant);
                 let start = serde_json::to_string(&start).unwrap();

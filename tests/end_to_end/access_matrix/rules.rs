@@ -100,7 +100,7 @@ const TABLE: &[(&str, [May; 4], Target, Then)] = &[
     ("frontalis.v1.TakeService/UpdateTake",         [E, O, N, N], Take,        Succeeds),  // label takes
     ("frontalis.v1.TakeService/DeleteTake",         [E, N, N, N], Take,        Succeeds),  // delete
     ("frontalis.v1.TakeService/ExportTake",         [E, O, N, N], Take,        Succeeds),  // export
-    ("frontalis.v1.TakeService/ResolveTake",        [E, N, N, N], Take,        NOT_BUILT), // re-solve
+    ("frontalis.v1.TakeService/ResolveTake",        [E, N, N, N], Take,        Succeeds), // re-solve
     ("frontalis.v1.ServerService/GetServer",        [E, E, E, E], Nothing,     Succeeds),  // every role
     ("grpc.health.v1.Health/Watch",                 [E, E, E, E], Nothing,     Succeeds),  // every role
     ("grpc.reflection.v1.ServerReflection/ServerReflectionInfo",      [E, E, E, E], Nothing, Succeeds), // every role

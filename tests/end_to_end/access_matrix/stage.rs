@@ -1,8 +1,11 @@
 //! What is asked for: a server with sessions and actors inside and outside of the callers' scope.
 
-use std::sync::atomic::{AtomicU32, Ordering};
+use std::{
+    collections::BTreeMap,
+    sync::atomic::{AtomicU32, Ordering},
+};
 
-use frontalis_proto::v1::StartTakeRequest;
+use frontalis_proto::v1::{StartTakeRequest, StopTakeRequest};
 use harness::{TestAuthority, TestServer, assert_eventually, toy_files, zip};
 
 use super::{
@@ -42,6 +45,8 @@ pub(super) struct Stage {
     /// An actor that is quick to import.
     pub(super) package: Vec<u8>,
     n_made: AtomicU32,
+    /// Takes of the sessions that are there from the start, which are over, by session.
+    takes: BTreeMap<&'static str, String>,
     _authority: TestAuthority,
 }
 
@@ -51,6 +56,7 @@ impl Stage {
         let mut server = TestServer::start_guarded(|config| {
             config.limits.auth_failures_per_minute = 60_000;
             config.limits.session_creations_per_minute = 60_000;
+            config.limits.sessions = 4_096;
             (config.tls.cert, config.tls.key) = authority.server_files(&["127.0.0.1"]);
             config.tls.client_ca = authority.ca_file();
         })
@@ -58,17 +64,21 @@ impl Stage {
         .spoken_to_over(authority.believer(None, &["h2"]));
         let callers = callers::all(&authority, server.keys());
         server.reload();
-        let stage = Self {
+        let mut stage = Self {
             server,
             callers,
             package: zip(&toy_files()),
             n_made: AtomicU32::new(0),
+            takes: BTreeMap::new(),
             _authority: authority,
         };
         let package = harness::reference_package();
         for id in [Object::Own, Object::Foreign].map(Object::id) {
             stage.server.import(id, &package).await.unwrap();
             stage.make_session(id, id).await;
+            let take = stage.make_take(id).await;
+            stage.stop_take(&take).await;
+            stage.takes.insert(id, take);
         }
         let known = stage.callers.iter().find(|it| it.role.is_some()).unwrap();
         assert_eventually!(grpc::is_known(&stage, known).await);
@@ -89,10 +99,10 @@ impl Stage {
                 self.make_session(&id, object.id()).await;
                 id
             }
-            (
-                "StopTake" | "GetTake" | "UpdateTake" | "DeleteTake" | "ExportTake" | "ResolveTake",
-                _,
-            ) => {
+            ("StopTake" | "GetTake" | "UpdateTake" | "ExportTake" | "ResolveTake", _) => {
+                self.takes[object.id()].clone()
+            }
+            ("DeleteTake", _) => {
                 let session = self.new_id(object.begins());
                 self.make_session(&session, object.id()).await;
                 self.make_take(&session).await
@@ -120,6 +130,12 @@ impl Stage {
         let mut takes = self.server.takes().await;
         let take = takes.start_take(request).await.unwrap().into_inner().take;
         take.unwrap().name.replace("takes/", "")
+    }
+
+    async fn stop_take(&self, id: &str) {
+        let name = format!("takes/{id}");
+        let mut takes = self.server.takes().await;
+        takes.stop_take(StopTakeRequest { name }).await.unwrap();
     }
 
     async fn make_session(&self, id: &str, actor: &str) {

@@ -1,6 +1,7 @@
-//! Row I9: two publishers want one session.
+//! Rows I9 and I10: two publishers want one session, once and again and again.
 
 use harness::{Publisher, assert_refused};
+use tokio::time::Instant;
 use tonic::Code;
 
 use super::{GOOD_FRAMES, SUBJECT, beside_a_control_session};
@@ -43,6 +44,40 @@ async fn i9_a_second_publisher_is_refused_or_takes_over() {
             sequences,
             (GOOD_FRAMES + 1..=GOOD_FRAMES + 10).collect::<Vec<_>>()
         );
+    })
+    .await;
+}
+
+/// Takeovers of a storm, one after the other as fast as they are answered.
+const STORM: u64 = 100;
+
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn i10_of_a_storm_of_takeovers_one_a_second_is_granted() {
+    beside_a_control_session("I10", async |stage| {
+        let first = stage.publisher().await;
+        let (mut epoch, mut n_granted) = (first.started.epoch, 0);
+        let mut held = vec![first];
+        let begun = Instant::now();
+        for turn in 0..STORM {
+            let name = format!("camera-{}", 2 + turn % 2);
+            let mut start = stage.performance.start(SUBJECT, &name);
+            start.takeover = true;
+            match Publisher::open(&stage.server, start).await {
+                Ok(publisher) => {
+                    assert!(publisher.started.epoch > epoch, "one order of epochs");
+                    epoch = publisher.started.epoch;
+                    n_granted += 1;
+                    // Its lease is not given back while the storm lasts.
+                    held.push(publisher);
+                }
+                Err(refused) => {
+                    assert_refused(&refused, Code::ResourceExhausted, "RATE_LIMIT");
+                }
+            }
+        }
+        // At once, and then after each whole second.
+        let most = 1 + begun.elapsed().as_secs();
+        assert!(n_granted >= 1 && n_granted <= most, "{n_granted} of {most}");
     })
     .await;
 }

@@ -44,10 +44,10 @@ async fn both_doors_refuse_for_the_same_reason() {
             Some("settings.neutralFrames"),
         ),
         (
-            json!({ "settings": { "record": true } }),
+            json!({ "settings": { "recordImages": true } }),
             501,
             "NOT_IMPLEMENTED",
-            Some("settings.record"),
+            Some("settings.recordImages"),
         ),
         (
             json!({ "updateMask": "colour" }),

@@ -12,7 +12,7 @@ const STEP: u64 = 40;
 
 /// The files of takes as they are just now.
 fn copy(server: &TestServer) -> Vec<Vec<u8>> {
-    let folder = server.folder().join("takes");
+    let folder = server.data_dir().join("takes");
     let files = std::fs::read_dir(folder).unwrap();
     let paths = files.map(|it| it.unwrap().path());
     let takes = paths.filter(|it| it.extension().is_some_and(|it| it == "mcap"));

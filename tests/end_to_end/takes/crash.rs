@@ -1,7 +1,7 @@
 //! A server that is killed loses nothing that it acknowledged as durable (CONTRACTS G1, the short form).
 
 use frontalis_proto::v1::TakeState;
-use harness::{RecordedTake, TestPerformance, TestServer};
+use harness::{KillProfile, Publisher, RecordedTake, TestPerformance, TestServer};
 
 use super::{SESSION, export, get, record};
 
@@ -44,6 +44,22 @@ async fn a_killed_server_gives_back_every_durable_frame() {
         );
         assert_eq!(found.n_frames, numbers.len() as u64);
     }
+}
+
+/// Kills under load of several sessions; `make kill-test` does many more.
+const N_KILLS_UNDER_LOAD: usize = 3;
+
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn eight_sessions_lose_no_durable_frame_when_their_server_is_killed() {
+    let profile = KillProfile {
+        n_kills: N_KILLS_UNDER_LOAD,
+        n_sessions: 8,
+        seed: 7,
+    };
+    let report = profile.run().await;
+    println!("G1: {report}");
+    assert!(report.is_clean(), "{report}");
+    assert!(report.n_durable > 0, "nothing was under way");
 }
 
 #[tokio::test(flavor = "multi_thread", worker_threads = 2)]

@@ -70,7 +70,7 @@ async fn a_take_that_is_played_is_the_same_frames_again() {
     }
 
     // From a file, into the same session: numbered on.
-    let file = server.folder().join("one.mcap").display().to_string();
+    let file = server.data_dir().join("one.mcap").display().to_string();
     let url = server.url();
     anna.does(&format!("--server {url} take export {id} {file}"))
         .await;

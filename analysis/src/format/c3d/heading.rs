@@ -8,12 +8,7 @@ use super::{
     number::Processor,
     parameters::{PREFIX_BYTES, Parameters},
 };
-use crate::{
-    face::actor::MAX_MARKERS,
-    format::quoted,
-    space::LengthUnit,
-    timecode::{Counting, Timecode, TimecodeRate},
-};
+use crate::{face::actor::MAX_MARKERS, format::quoted, space::LengthUnit, timecode::Timecode};
 
 /// Where the header keeps its words, in bytes.
 mod at {
@@ -258,18 +253,7 @@ impl Parts<'_> {
         let (Some(start), Some(rate)) = (start.first(), rate.first()) else {
             return Ok(None);
         };
-        let counting = if start.contains(';') {
-            Counting::Drop
-        } else {
-            Counting::NonDrop
-        };
-        let timecode = || {
-            let (numerator, denominator) = rate.split_once('/')?;
-            let (numerator, denominator) = (numerator.parse().ok()?, denominator.parse().ok()?);
-            let rate = TimecodeRate::new(numerator, denominator, counting).ok()?;
-            Timecode::parse(start, rate).ok()
-        };
-        Ok(timecode())
+        Ok(Timecode::parse_at(start, rate).ok())
     }
 
     fn check_size(&self, layout: &Layout, n_frames: u32) -> Result<(), C3dError> {

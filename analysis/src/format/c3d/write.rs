@@ -101,8 +101,22 @@ impl<W: Write> C3dWriter<W> {
     /// # Errors
     ///
     /// A heading that the format cannot say, or a sink that cannot take it.
-    pub fn new(mut out: W, heading: &C3dHeading) -> Result<Self, C3dWriteError> {
-        let parameters = parameters(heading)?;
+    pub fn new(out: W, heading: &C3dHeading) -> Result<Self, C3dWriteError> {
+        Self::with_remarks(out, heading, &[])
+    }
+
+    /// The same, with what else is to be said of the take: names in capitals and texts, cut at 127 bytes, in a group
+    /// `REMARKS`.
+    ///
+    /// # Errors
+    ///
+    /// As [`Self::new`].
+    pub fn with_remarks(
+        mut out: W,
+        heading: &C3dHeading,
+        remarks: &[(&str, String)],
+    ) -> Result<Self, C3dWriteError> {
+        let parameters = parameters(heading, remarks)?;
         out.write_all(&header(heading, parameters.len())?)?;
         out.write_all(&parameters)?;
         Ok(Self {
@@ -232,7 +246,7 @@ fn rate(heading: &C3dHeading) -> f32 {
 }
 
 /// The parameter section in whole blocks.
-fn parameters(heading: &C3dHeading) -> Result<Vec<u8>, C3dWriteError> {
+fn parameters(heading: &C3dHeading, remarks: &[(&str, String)]) -> Result<Vec<u8>, C3dWriteError> {
     let names = &heading.marker_names;
     if !(1..=MAX_MARKERS).contains(&names.len()) {
         let found = names.len();
@@ -259,12 +273,24 @@ fn parameters(heading: &C3dHeading) -> Result<Vec<u8>, C3dWriteError> {
     entries.words(trial, "ACTUAL_START_FIELD", &low_high(first));
     entries.words(trial, "ACTUAL_END_FIELD", &low_high(last));
     if let Some(timecode) = heading.start_timecode {
-        let (group, rate) = (entries.group("TIMECODE"), timecode.rate());
-        let rate = format!("{}/{}", rate.numerator(), rate.denominator());
+        let group = entries.group("TIMECODE");
         entries.text(group, "START", &timecode.to_string());
-        entries.text(group, "RATE", &rate);
+        entries.text(group, "RATE", &timecode.rate().to_string());
+    }
+    if !remarks.is_empty() {
+        let group = entries.group("REMARKS");
+        for (name, text) in remarks {
+            entries.text(group, name, shortened(text));
+        }
     }
     Ok(entries.finish(point, PARAMETER_BLOCK, Processor::INTEL_CODE))
+}
+
+/// As much of a text as a parameter holds.
+fn shortened(text: &str) -> &str {
+    let end = (0..=entries::MAX_NAME_BYTES.min(text.len())).rev();
+    let end = end.into_iter().find(|&it| text.is_char_boundary(it));
+    &text[..end.unwrap_or(0)]
 }
 
 fn low_high(number: u32) -> [u16; 2] {

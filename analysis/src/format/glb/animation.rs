@@ -198,8 +198,7 @@ fn animation(
         "channels": [{ "sampler": 0, "target": { "node": 0, "path": "weights" } }],
     });
     if let Some(timecode) = start_timecode {
-        let rate = timecode.rate();
-        let rate = format!("{}/{}", rate.numerator(), rate.denominator());
+        let rate = timecode.rate().to_string();
         animation["extras"] = json!({ "timecode": timecode.to_string(), "rate": rate });
     }
     animation

@@ -30,7 +30,12 @@ impl ShapeMapping {
         Self::of_names(names)
     }
 
-    pub(super) fn of_names<'a>(names: impl Iterator<Item = &'a str>) -> Self {
+    /// The mapping of muscles in the order of their names.
+    #[expect(
+        clippy::missing_panics_doc,
+        reason = "a test reads every name of the table"
+    )]
+    pub fn of_names<'a>(names: impl Iterator<Item = &'a str>) -> Self {
         let mut drivers = vec![Vec::new(); N_SHAPES];
         for (muscle, name) in names.enumerate() {
             if let Some(shape) = shape_named(name) {

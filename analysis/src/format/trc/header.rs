@@ -1,7 +1,7 @@
 //! The five header lines: rate, unit, marker names, and which separator the file uses.
 
-use super::{Line, Lines, TrcError, TrcProblem};
-use crate::{face::actor::MAX_MARKERS, format::quoted, space::LengthUnit};
+use super::{Line, Lines, TrcError, TrcProblem, start_timecode};
+use crate::{face::actor::MAX_MARKERS, format::quoted, space::LengthUnit, timecode::Timecode};
 
 /// Cells before the first coordinate: frame number and time.
 pub(super) const LEADING_CELLS: usize = 2;
@@ -11,6 +11,7 @@ pub(super) struct Header {
     pub(super) rate_hz: f64,
     pub(super) unit: LengthUnit,
     pub(super) marker_names: Vec<String>,
+    pub(super) start_timecode: Option<Timecode>,
 }
 
 pub(super) fn read(lines: &mut Lines<'_>) -> Result<Header, TrcError> {
@@ -19,6 +20,7 @@ pub(super) fn read(lines: &mut Lines<'_>) -> Result<Header, TrcError> {
         return Err(path.error(TrcProblem::NotTrc));
     }
     let separator = if path.text.contains('\t') { '\t' } else { ',' };
+    let start_timecode = path.text.split(separator).find_map(start_timecode::read);
     let keys = next(lines)?;
     let values = next(lines)?;
     let value = |key: &'static str| {
@@ -42,6 +44,7 @@ pub(super) fn read(lines: &mut Lines<'_>) -> Result<Header, TrcError> {
         rate_hz,
         unit,
         marker_names,
+        start_timecode,
     })
 }
 

@@ -3,7 +3,7 @@
 use proptest::prelude::*;
 
 use super::*;
-use crate::format::shared_data;
+use crate::{format::shared_data, timecode::Timecode};
 
 const TAKE: &str = "PathFileType\t4\t(X/Y/Z)\ttake.trc
 DataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\tOrigDataRate\tOrigDataStartFrame\tOrigNumFrames
@@ -32,7 +32,42 @@ fn take() -> TrcTake {
                 positions: vec![[f32::NAN; 3], [4.0, f32::NAN, 6.25]],
             },
         ],
+        start_timecode: None,
     }
+}
+
+#[test]
+fn timecode_and_remarks_stand_in_the_first_line_and_no_cell_is_a_formula() {
+    let written = |text, rate| {
+        let start_timecode = Some(Timecode::parse_at(text, rate).unwrap());
+        let names = ["=lid".to_owned(), "chin".to_owned()];
+        let take = take();
+        let heading = TrcHeading {
+            name: "-12A",
+            rate_hz: take.rate_hz,
+            unit: take.unit,
+            marker_names: &names,
+            first_frame: 1,
+            n_frames: 2,
+            start_timecode,
+            remarks: &["frames=1-2".to_owned(), "@gaps".to_owned()],
+        };
+        let mut writer = TrcWriter::new(Vec::new(), &heading).unwrap();
+        for frame in &take.frames {
+            writer.write_frame(frame).unwrap();
+        }
+        let text = String::from_utf8(writer.finish().unwrap()).unwrap();
+        assert_eq!(accepted(&text).start_timecode, start_timecode);
+        text
+    };
+    let drop = written("01:02:03;04", "30000/1001");
+    let first =
+        "PathFileType\t4\t(X/Y/Z)\t'-12A\ttimecode=01:02:03;04@30000/1001\tframes=1-2\t'@gaps\n";
+    assert!(drop.starts_with(first), "{drop}");
+    assert!(drop.contains("\t'=lid\t"), "{drop}");
+    written("23:59:59:24", "25/1");
+    let odd = drop.replace("30000/1001", "30/0");
+    assert_eq!(accepted(&odd).start_timecode, None);
 }
 
 /// Equal to the bit, where NaN equals NaN.
@@ -336,6 +371,8 @@ fn rows_that_are_not_the_headings_are_refused() {
         marker_names: &take.marker_names,
         first_frame: 1,
         n_frames: 1,
+        start_timecode: None,
+        remarks: &[],
     };
     let mut writer = TrcWriter::new(Vec::new(), &heading).unwrap();
     let short = TrcFrame {

@@ -2,8 +2,8 @@
 
 use std::io::{self, Write};
 
-use super::{TrcFrame, TrcTake};
-use crate::space::LengthUnit;
+use super::{TrcFrame, TrcTake, start_timecode};
+use crate::{format::curve_csv::inert, space::LengthUnit, timecode::Timecode};
 
 /// What stands above the rows.
 #[derive(Clone, Debug, PartialEq)]
@@ -20,6 +20,11 @@ pub struct TrcHeading<'a> {
     pub first_frame: u64,
     /// How many rows follow.
     pub n_frames: u64,
+    /// The first row's timecode. TRC has no place of its own for it: it stands behind the name in the first line, which
+    /// readers pass over.
+    pub start_timecode: Option<Timecode>,
+    /// What else is to be said of the take, likewise, a cell each.
+    pub remarks: &'a [String],
 }
 
 /// Why a TRC cannot be written.
@@ -125,6 +130,8 @@ pub fn write(take: &TrcTake, name: &str) -> String {
         marker_names: &take.marker_names,
         first_frame: take.frames.first().map_or(1, |frame| frame.number),
         n_frames: take.frames.len() as u64,
+        start_timecode: take.start_timecode,
+        remarks: &[],
     };
     let write_all = || {
         let mut writer = TrcWriter::new(Vec::new(), &heading)?;
@@ -145,7 +152,14 @@ fn header(out: &mut impl Write, heading: &TrcHeading<'_>) -> io::Result<()> {
     );
     let (unit, name) = (heading.unit.symbol(), one_cell(heading.name));
     let first = heading.first_frame;
-    writeln!(out, "PathFileType\t4\t(X/Y/Z)\t{name}")?;
+    write!(out, "PathFileType\t4\t(X/Y/Z)\t{name}")?;
+    if let Some(timecode) = &heading.start_timecode {
+        write!(out, "\t{}", start_timecode::cell(timecode))?;
+    }
+    for remark in heading.remarks {
+        write!(out, "\t{}", one_cell(remark))?;
+    }
+    writeln!(out)?;
     writeln!(
         out,
         "DataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\tOrigDataRate\tOrigDataStartFrame\tOrigNumFrames"
@@ -177,9 +191,9 @@ fn row(out: &mut impl Write, frame: &TrcFrame) -> io::Result<()> {
     writeln!(out)
 }
 
-/// A name without what would end its cell or its line.
-fn one_cell(name: &str) -> String {
-    name.chars()
-        .map(|c| if c.is_control() { '_' } else { c })
-        .collect()
+/// A text without what would end its cell or its line, and never a formula of a spreadsheet.
+fn one_cell(text: &str) -> String {
+    let printable = |c: char| if c.is_control() { '_' } else { c };
+    let text: String = text.chars().map(printable).collect();
+    inert(&text).into_owned()
 }

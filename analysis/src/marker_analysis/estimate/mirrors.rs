@@ -4,7 +4,10 @@
 //! blink.
 
 use super::super::{evidence::Part, marker_model::MarkerModel};
-use crate::face::muscle::MuscleSet;
+use crate::{
+    face::muscle::MuscleSet,
+    numeric::tape::{Tape, TapeError},
+};
 
 /// What two mirror images differ by fades by 1/e in this time while one of them is hidden.
 const DIFFERENCE_SECS: f64 = 1.0;
@@ -49,6 +52,11 @@ impl Mirrors {
         if before.pairs == self.pairs {
             self.differences.clone_from(&before.differences);
         }
+    }
+
+    /// Names what a frame finds of those before it.
+    pub fn lasts(&mut self, tape: &mut Tape) -> Result<(), TapeError> {
+        tape.reals("differences", &mut self.differences)
     }
 
     /// All pairs, left and right.

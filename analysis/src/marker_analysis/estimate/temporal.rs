@@ -8,7 +8,10 @@
 //! a small block is inverted.
 
 use crate::numeric::{
-    factor::NotPositiveDefinite, inverse::SymmetricInverse, posterior::Posterior,
+    factor::NotPositiveDefinite,
+    inverse::SymmetricInverse,
+    posterior::Posterior,
+    tape::{Entry, Tape, TapeError, expect},
 };
 
 /// Standard deviation of a contraction's step from frame to frame at 30 Hz, at least.
@@ -96,6 +99,39 @@ impl TemporalPrior {
         self.linked.clone_from(&before.linked);
         self.covariance.clone_from(&before.covariance);
         self.state = before.state;
+    }
+
+    /// Names what a frame finds of those before it.
+    pub fn lasts(&mut self, tape: &mut Tape) -> Result<(), TapeError> {
+        let m = self.variance.len();
+        tape.reals("volatility", &mut self.volatility)?;
+        tape.reals("variance", &mut self.variance)?;
+        tape.places("linked", &mut self.linked, m)?;
+        self.covariance_lasts(tape)?;
+        let mut state = self.state as u64;
+        tape.integer("known", &mut state)?;
+        let known = [State::New, State::Lost, State::Known];
+        let known = known.into_iter().find(|it| *it as u64 == state);
+        self.state = known.ok_or_else(|| tape.wrong("known"))?;
+        Ok(())
+    }
+
+    /// P among the linked muscles: what else stands in its rows is of frames before.
+    fn covariance_lasts(&mut self, tape: &mut Tape) -> Result<(), TapeError> {
+        let (m, k) = (self.variance.len(), self.linked.len());
+        let write = |it: &mut Entry| {
+            for row in self.covariance.chunks_exact(m.max(1)).take(k) {
+                it.reals.extend_from_slice(&row[..k]);
+            }
+        };
+        let square = |reals, integers| expect(reals == k * k && integers == 0, k * k);
+        if let Some(found) = tape.entry("covariance", write, square)? {
+            let rows = self.covariance.chunks_exact_mut(m.max(1));
+            for (to, from) in rows.zip(found.reals.chunks_exact(k.max(1))) {
+                to[..k].copy_from_slice(from);
+            }
+        }
+        Ok(())
     }
 
     pub fn set_rate_hz(&mut self, rate_hz: f64) {

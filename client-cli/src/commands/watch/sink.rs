@@ -3,10 +3,8 @@
 use std::io::{self, BufWriter, Stdout, Write as _};
 
 use anyhow::bail;
-use frontalis_client::{
-    csv::{Columns, CsvRow, CsvWriter},
-    curve_client::CurveEvent,
-};
+use frontalis_analysis::format::curve_csv::{CurveColumns, CurveCsvWriter};
+use frontalis_client::{csv::CsvRow, curve_client::CurveEvent};
 
 use crate::{
     commands::Context,
@@ -25,9 +23,9 @@ pub enum Sink {
     Plain(PlainLines),
     /// A table; its heading follows the first header.
     Csv {
-        writer: Option<CsvWriter<BufWriter<Stdout>>>,
+        writer: Option<CurveCsvWriter<BufWriter<Stdout>>>,
         controls: Vec<String>,
-        columns: Columns,
+        columns: CurveColumns,
     },
     /// One JSON object an event.
     Json(BufWriter<Stdout>),
@@ -35,7 +33,11 @@ pub enum Sink {
 
 impl Sink {
     /// `csv` says what a table would hold, if one is wanted.
-    pub fn choose(context: &Context, session: &str, csv: Option<Columns>) -> anyhow::Result<Self> {
+    pub fn choose(
+        context: &Context,
+        session: &str,
+        csv: Option<CurveColumns>,
+    ) -> anyhow::Result<Self> {
         Ok(if let Some(columns) = csv {
             Self::Csv {
                 writer: None,
@@ -97,9 +99,9 @@ impl Sink {
 }
 
 fn take_csv(
-    writer: &mut Option<CsvWriter<BufWriter<Stdout>>>,
+    writer: &mut Option<CurveCsvWriter<BufWriter<Stdout>>>,
     controls: &mut Vec<String>,
-    columns: Columns,
+    columns: CurveColumns,
     event: &CurveEvent,
 ) -> anyhow::Result<()> {
     match (event, writer) {
@@ -108,13 +110,15 @@ fn take_csv(
             if writer.is_none() {
                 let out = BufWriter::new(io::stdout());
                 let headings = names.iter().map(String::as_str);
-                *writer = Some(CsvWriter::new(out, headings, columns)?);
+                *writer = Some(CurveCsvWriter::new(out, headings, columns)?);
                 *controls = names;
             } else if *controls != names {
                 bail!("the session's controls changed; one table cannot hold both");
             }
         }
-        (CurveEvent::Sample(sample), Some(writer)) => writer.write(&CsvRow::from(sample))?,
+        (CurveEvent::Sample(sample), Some(writer)) => {
+            writer.write_row(&CsvRow::from(sample).as_row())?;
+        }
         _ => {}
     }
     Ok(())

@@ -122,14 +122,14 @@ fn a_deleted_actor_leaves_neither_rows_nor_files() {
     let catalogue = Catalogue::in_memory(files.clone()).unwrap();
     catalogue.add_revision(&revision(b"one"), 0).unwrap();
     catalogue.add_revision(&revision(b"two"), 0).unwrap();
-    catalogue.delete_actor(&id(), false).unwrap();
+    catalogue.delete_actor(&id()).unwrap();
     assert!(files.list("/packages".as_ref()).unwrap().is_empty());
     assert!(matches!(
         catalogue.actor(&id()),
         Err(CatalogueError::NoActor)
     ));
     assert!(matches!(
-        catalogue.delete_actor(&id(), false),
+        catalogue.delete_actor(&id()),
         Err(CatalogueError::NoActor)
     ));
     assert_eq!(

@@ -27,6 +27,8 @@ fn session(id: &str) -> NewSession {
             marker: MarkerSettings::default(),
             stale_after: Some(Duration::from_millis(250)),
             publisher_timeout: Duration::from_secs(10),
+            record: false,
+            record_images: false,
         },
     }
 }

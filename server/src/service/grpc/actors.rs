@@ -22,6 +22,7 @@ use crate::{
     service::{
         access::{Action, Caller},
         audit::Audit,
+        erasure::{self, Erasure},
         peer::Peer,
     },
     session::SessionRegistry,
@@ -50,6 +51,7 @@ pub struct ActorsGrpc {
     exports: Arc<Semaphore>,
     max_exports: usize,
     audit: Audit,
+    erasure: Erasure,
 }
 
 /// How much of packages there may be at once.
@@ -77,7 +79,7 @@ impl ActorsGrpc {
         clock: ServerClock,
         workers: Workers,
         limits: ActorLimits,
-        audit: Audit,
+        erasure: Erasure,
     ) -> Self {
         Self {
             store,
@@ -89,7 +91,8 @@ impl ActorsGrpc {
             max_imports: limits.imports,
             exports: Arc::new(Semaphore::new(limits.exports)),
             max_exports: limits.exports,
-            audit,
+            audit: erasure.audit.clone(),
+            erasure,
         }
     }
 
@@ -194,12 +197,18 @@ impl ActorService for ActorsGrpc {
         peer.caller.may(Action::DeleteActor)?;
         let request = request.into_inner();
         let id = id(&request.name)?;
-        let deleted = self.store.delete_actor(&id, request.with_takes).await;
-        let deleted = deleted.map_err(Status::from);
-        self.audit
+        let deleted = if request.with_takes {
+            self.erasure.actor(&id).await.map(Some)
+        } else {
+            let deleted = self.store.delete_actor(&id).await;
+            deleted.map(|()| None).map_err(Status::from)
+        };
+        let receipt = self
+            .audit
             .outcome("actor_delete", &peer, &id.resource(), deleted)?;
-        tracing::info!(actor = %id, "actor erased");
-        Ok(Response::new(v1::DeleteActorResponse {}))
+        let what = receipt.as_ref().map(erasure::in_words);
+        tracing::info!(actor = %id, what, "actor erased");
+        Ok(Response::new(v1::DeleteActorResponse { receipt }))
     }
 
     type ImproveBasisStream = Responses<v1::ImproveBasisResponse>;

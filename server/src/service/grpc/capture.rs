@@ -22,6 +22,7 @@ use crate::{
         audit::Audit,
         peer::Peer,
         sessions::in_process,
+        takes::Takes,
     },
     session::{
         Claim, Grant, Granted, IncomingFrame, Offer, Publication, PublishEnd, SessionRegistry, Wait,
@@ -44,25 +45,26 @@ pub struct CaptureGrpc {
     store: Store,
     clock: ServerClock,
     audit: Audit,
-    recorder: Recorder,
+    takes: Takes,
 }
 
 impl CaptureGrpc {
-    /// Publishes into the sessions of `registry`; epochs are made durable in `store` before they are granted. What a session
-    /// no longer knows of its frames, the takes of `recorder` do.
+    /// Publishes into the sessions of `registry`; epochs are made durable in `store` before they are granted.
+    /// Sessions that are to be recorded from their first frame on become `takes`, which also know what a session no longer
+    /// knows of its frames.
     pub fn new(
         registry: SessionRegistry,
         store: Store,
         clock: ServerClock,
         audit: Audit,
-        recorder: Recorder,
+        takes: Takes,
     ) -> Self {
         Self {
             registry,
             store,
             clock,
             audit,
-            recorder,
+            takes,
         }
     }
 
@@ -133,6 +135,7 @@ impl CaptureGrpc {
         } else {
             claimed?;
         }
+        self.takes.start_with_first_frame(&session).await?;
         let epoch = self.store.next_epoch(&start.session).await?;
         let (publisher, takeover) = (start.publisher, start.takeover);
         let publication = session.grant(Grant {
@@ -280,7 +283,7 @@ impl Flow {
         Self {
             publication,
             clock: service.clock,
-            recorder: service.recorder.clone(),
+            recorder: service.takes.recorder().clone(),
             lookup: None,
             waiting: Vec::new().into_iter(),
             held: None,
@@ -446,6 +449,10 @@ impl Flow {
         if request.start.is_some() {
             self.publication.release();
             return Err(protocol_order("start was sent twice"));
+        }
+        if let Some(echo) = &request.clock {
+            let exchange = wire::clock_exchange(echo, self.clock.now_nanos());
+            self.publication.exchange(exchange)?;
         }
         self.take_frames(request.frames)
     }

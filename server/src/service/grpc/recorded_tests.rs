@@ -9,9 +9,10 @@ use tonic::{Code, Status};
 
 use super::stage::{Publisher, SESSION, Seen, Stage, asked, assert_refused, every_frame, settings};
 use crate::{
-    catalogue::{TakeLabels, TakeRow},
+    catalogue::TakeRow,
     name::{SessionId, TakeId},
     session::SessionLimits,
+    wire::take::NewTake,
 };
 
 /// Longer than the window and the memory for frames that are sent again.
@@ -84,7 +85,7 @@ fn starting_at(sequence: u64) -> v1::SubscribeStart {
 
 async fn start_take(stage: &Stage) -> TakeRow {
     let session = SessionId::from_resource(SESSION).unwrap();
-    let started = stage.takes.start(&session, TakeLabels::default()).await;
+    let started = stage.takes.start(&session, NewTake::default()).await;
     started.unwrap()
 }
 

@@ -50,6 +50,9 @@ impl From<CatalogueError> for Status {
                 Refusal::new(Code::FailedPrecondition, "ACTOR_IN_USE", message)
                     .with("sessions", &n_sessions)
             }
+            CatalogueError::BeingErased => {
+                Refusal::new(Code::FailedPrecondition, "ACTOR_BEING_ERASED", message)
+            }
             CatalogueError::LayoutChanged { what, .. } => {
                 Refusal::new(Code::FailedPrecondition, "LAYOUT_CHANGED", message)
                     .with("what", &what)
@@ -136,6 +139,10 @@ impl From<SessionError> for Status {
             }
             SessionError::OwnedByAnother => {
                 Refusal::new(Code::PermissionDenied, "TAKEOVER", message)
+            }
+            SessionError::TakeoverRate { retry_after } => {
+                Refusal::new(Code::ResourceExhausted, "RATE_LIMIT", message)
+                    .retry_after(retry_after)
             }
             SessionError::Fenced { epoch, current } => {
                 Refusal::new(Code::Aborted, "PUBLISHER_FENCED", message)

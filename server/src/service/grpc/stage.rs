@@ -93,14 +93,13 @@ impl Stage {
         let fs: Arc<dyn Fs> = Arc::new(MemFs::default());
         let (dir, kept) = (PathBuf::from("/takes"), registry.clone());
         let takes = Takes::new(Threads::Inline, store.clone(), kept, clock, fs, dir).unwrap();
-        let recorder = takes.recorder().clone();
         Self {
             capture: CaptureGrpc::new(
                 registry.clone(),
                 store.clone(),
                 clock,
                 Audit::none(),
-                recorder,
+                takes.clone(),
             ),
             curves: CurvesGrpc::new(registry.clone(), store.clone(), clock, takes.replays()),
             takes,
@@ -247,6 +246,8 @@ async fn store(actor: &Actor) -> Store {
             marker: settings().marker,
             stale_after: None,
             publisher_timeout: Duration::from_secs(10),
+            record: false,
+            record_images: false,
         },
     };
     store.create_session(session, 0).await.unwrap();

@@ -6,13 +6,15 @@ use frontalis_proto::v1::{self, take_service_server::TakeService};
 use futures::Stream;
 use tonic::{Request, Response, Status};
 
-use super::actors::not_built;
 use crate::{
     catalogue::{CatalogueError, TakeFilter, TakeRow},
     name::{ActorId, SessionId, TakeId},
     service::{
         access::{Action, Caller},
-        takes::Takes,
+        audit::Audit,
+        peer::Peer,
+        take_exports::{OpenTakeFile, TakeExports},
+        takes::{ResolveOrder, Takes},
     },
     wire::{
         invalid::{FieldError, FieldProblem},
@@ -27,12 +29,34 @@ type Responses<T> = Pin<Box<dyn Stream<Item = Result<T, Status>> + Send>>;
 #[derive(Clone)]
 pub struct TakesGrpc {
     takes: Takes,
+    exports: TakeExports,
+    audit: Audit,
 }
 
 impl TakesGrpc {
-    /// The service over `takes`.
-    pub fn new(takes: Takes) -> Self {
-        Self { takes }
+    /// The service over `takes`, which go out through `exports`.
+    pub fn new(takes: Takes, exports: TakeExports, audit: Audit) -> Self {
+        Self {
+            takes,
+            exports,
+            audit,
+        }
+    }
+
+    /// The stored file of a take, for doors that hand out parts of it.
+    ///
+    /// # Errors
+    ///
+    /// As [`TakeService::export_take`].
+    pub async fn open_file(
+        &self,
+        request: Request<v1::ExportTakeRequest>,
+    ) -> Result<OpenTakeFile, Status> {
+        let peer = Peer::of(request.extensions());
+        let name = &request.get_ref().name;
+        let row = self.allowed(&peer.caller, Action::ReadTakes, name).await?;
+        let opened = self.exports.open(&peer, row).await;
+        self.audit.outcome("take_export", &peer, name, opened)
     }
 
     /// The take of this name, if the caller may do this to it. One that it must not see is not there.
@@ -65,7 +89,10 @@ impl TakeService for TakesGrpc {
         let session =
             SessionId::from_resource(&request.session).map_err(FieldError::name("session"))?;
         caller.may_in(Action::Record, &session)?;
-        let row = self.takes.start(&session, wire::labels(&request)?).await?;
+        let row = self
+            .takes
+            .start(&session, wire::new_take(&request)?)
+            .await?;
         Ok(Response::new(v1::StartTakeResponse {
             take: Some(wire::take(&row)),
         }))
@@ -136,10 +163,12 @@ impl TakeService for TakesGrpc {
         &self,
         request: Request<v1::DeleteTakeRequest>,
     ) -> Result<Response<v1::DeleteTakeResponse>, Status> {
-        let caller = Caller::of(request.extensions());
+        let peer = Peer::of(request.extensions());
         let name = &request.get_ref().name;
-        let row = self.allowed(&caller, Action::DeleteTake, name).await?;
-        self.takes.delete(&row.id).await?;
+        let row = self.allowed(&peer.caller, Action::DeleteTake, name).await?;
+        let deleted = self.takes.delete(&row.id).await;
+        self.audit
+            .outcome("take_delete", &peer, &row.id.resource(), deleted)?;
         Ok(Response::new(v1::DeleteTakeResponse {}))
     }
 
@@ -149,18 +178,15 @@ impl TakeService for TakesGrpc {
         &self,
         request: Request<v1::ExportTakeRequest>,
     ) -> Result<Response<Self::ExportTakeStream>, Status> {
-        let caller = Caller::of(request.extensions());
+        let peer = Peer::of(request.extensions());
         let name = &request.get_ref().name;
-        let row = self.allowed(&caller, Action::ReadTakes, name).await?;
-        let number = request.get_ref().format;
-        let unknown = |_| FieldError::new("format", FieldProblem::UnknownEnum(number));
-        let format = v1::TakeFormat::try_from(number).map_err(unknown)?;
-        match format {
-            v1::TakeFormat::Unspecified | v1::TakeFormat::Mcap => {
-                Ok(Response::new(Box::pin(self.takes.file(&row))))
-            }
-            _ => Err(not_built("ExportTake in this format")),
-        }
+        let row = self.allowed(&peer.caller, Action::ReadTakes, name).await?;
+        let format = format(request.get_ref().format)?;
+        let exported = self.exports.export(&peer, &row, format).await;
+        let exported = self
+            .audit
+            .outcome("take_export", &peer, &row.id.resource(), exported)?;
+        Ok(Response::new(peer.caller.while_valid(exported)))
     }
 
     type ResolveTakeStream = Responses<v1::ResolveTakeResponse>;
@@ -171,8 +197,23 @@ impl TakeService for TakesGrpc {
     ) -> Result<Response<Self::ResolveTakeStream>, Status> {
         let caller = Caller::of(request.extensions());
         let name = &request.get_ref().name;
-        self.allowed(&caller, Action::MakeActors, name).await?;
-        Err(not_built("ResolveTake"))
+        let row = self.allowed(&caller, Action::MakeActors, name).await?;
+        let request = request.into_inner();
+        let order = ResolveOrder {
+            from: row,
+            actor_revision: (request.actor_revision != 0).then_some(request.actor_revision),
+            settings: request.settings.unwrap_or_default(),
+        };
+        Ok(Response::new(Box::pin(self.takes.resolve(order)?)))
+    }
+}
+
+/// A format by its number; none is the take's own.
+fn format(number: i32) -> Result<v1::TakeFormat, FieldError> {
+    let unknown = |_| FieldError::new("format", FieldProblem::UnknownEnum(number));
+    match v1::TakeFormat::try_from(number).map_err(unknown)? {
+        v1::TakeFormat::Unspecified => Ok(v1::TakeFormat::Mcap),
+        known => Ok(known),
     }
 }
 

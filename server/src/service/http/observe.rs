@@ -4,19 +4,27 @@ use std::collections::BTreeMap;
 
 use axum::{
     Extension,
-    extract::State,
+    extract::{RawQuery, State},
     http::{StatusCode, header},
     response::{IntoResponse, Response},
 };
+
+use serde::Deserialize;
+use utoipa::IntoParams;
 
 use super::{
     Doors,
     openapi::{Document, Refusals},
     problem::Problem,
+    query,
 };
 use crate::{
     hub::SessionState,
-    service::access::{Action, Caller},
+    service::{
+        access::{Action, Caller},
+        grpc::status::reason_of,
+        readiness::{RECORDING, Readiness},
+    },
     session::{SessionHandle, SessionStatus},
     telemetry::{Protocol, SessionFigures},
     wire::session::state_name,
@@ -75,29 +83,68 @@ pub(super) async fn healthz() -> &'static str {
     "ok\n"
 }
 
-/// Ready: new sessions are accepted.
+/// What may be asked of readiness.
+#[derive(Deserialize, IntoParams)]
+#[into_params(parameter_in = Query)]
+pub(super) struct ReadyQuery {
+    /// The service that shall be ready, as the gRPC health check names it: empty or `frontalis.v1.CaptureService` for new
+    /// sessions, `frontalis.v1.TakeService` for new takes too.
+    #[serde(default)]
+    #[param(
+        required = false,
+        pattern = "^(frontalis[.]v1[.](CaptureService|TakeService))?$",
+        example = ""
+    )]
+    service: String,
+}
+
+/// Ready: new sessions are accepted, or, for `frontalis.v1.TakeService`, new takes.
 #[utoipa::path(
     get,
     path = "/readyz",
     operation_id = "isReady",
     tag = "observation",
     security(()),
+    params(ReadyQuery),
     responses(
         (status = 200, description = "`ready`.", body = String, content_type = "text/plain"),
         (
+            status = 400,
+            description = "There is no such service.",
+            body = ref("#/components/schemas/Problem"),
+            content_type = "application/problem+json",
+        ),
+        (
             status = 503,
-            description = "The server is shutting down.",
+            description = "The server is shutting down, or its catalogue is damaged, or the disk is almost full.",
             body = ref("#/components/schemas/Problem"),
             content_type = "application/problem+json",
         ),
     ),
 )]
-pub(super) async fn readyz(State(doors): State<Doors>) -> Response {
-    if doors.phases.is_draining() {
-        let detail = "the server is shutting down";
-        return Problem::new(StatusCode::SERVICE_UNAVAILABLE, "DRAINING", detail).into_response();
+pub(super) async fn readyz(State(doors): State<Doors>, RawQuery(query): RawQuery) -> Response {
+    match check_ready(&doors.readiness, &query.unwrap_or_default()) {
+        Ok(()) => "ready\n".into_response(),
+        Err(problem) => problem.into_response(),
     }
-    "ready\n".into_response()
+}
+
+fn check_ready(readiness: &Readiness, query: &str) -> Result<(), Problem> {
+    let query: ReadyQuery = query::read(query)?;
+    let checked = match query.service.as_str() {
+        "" | "frontalis.v1.CaptureService" => readiness.check(),
+        RECORDING => readiness.check_recording(),
+        _ => {
+            let detail =
+                "service must be empty, frontalis.v1.CaptureService or frontalis.v1.TakeService";
+            let problem = Problem::new(StatusCode::BAD_REQUEST, "QUERY", detail);
+            return Err(problem.with("field", "service"));
+        }
+    };
+    checked.map_err(|refused| {
+        let reason = reason_of(&refused).unwrap_or_default();
+        Problem::new(StatusCode::SERVICE_UNAVAILABLE, &reason, refused.message())
+    })
 }
 
 /// Figures for a monitoring system.
@@ -131,7 +178,9 @@ pub(super) async fn metrics(
         .map(SessionHandle::status)
         .collect();
     doors.metrics.set_calls(doors.services.calls.in_progress());
-    doors.metrics.set_ready(!doors.phases.is_draining());
+    doors.metrics.set_ready(doors.readiness.check().is_ok());
+    let is_recording = doors.readiness.check_recording().is_ok();
+    doors.metrics.set_ready_to_record(is_recording);
     doors.metrics.set_sessions(&figures(&all));
     let kind = "application/openmetrics-text; version=1.0.0; charset=utf-8";
     Ok(([(header::CONTENT_TYPE, kind)], doors.metrics.to_text()))

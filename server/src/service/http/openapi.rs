@@ -185,7 +185,7 @@ fn collect(value: &Value, found: &mut BTreeSet<String>) {
     }
 }
 
-const TAGS: [(&str, &str); 6] = [
+const TAGS: [(&str, &str); 7] = [
     ("server", "The server itself, and who asks."),
     (
         "actors",
@@ -197,6 +197,10 @@ const TAGS: [(&str, &str); 6] = [
     ),
     ("capture", "Frames in."),
     ("curves", "Curves out."),
+    (
+        "takes",
+        "Recordings: frames as they came and samples as they went.",
+    ),
     ("observation", "Health, figures, and this description."),
 ];
 

@@ -43,3 +43,13 @@ pub(super) struct SessionPath {
     #[param(pattern = "^[a-z0-9][a-z0-9_-]{0,62}$", example = "take-1")]
     id: String,
 }
+
+/// A take in the path.
+#[derive(IntoParams)]
+#[into_params(parameter_in = Path)]
+#[expect(dead_code, reason = "only describes the path")]
+pub(super) struct TakePath {
+    /// The take's id: `takes/ID` is its name.
+    #[param(pattern = "^[a-z0-9][a-z0-9_-]{0,62}$", example = "take-1-19f3")]
+    id: String,
+}

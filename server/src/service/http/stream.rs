@@ -162,7 +162,7 @@ struct Stream {
 
 impl Stream {
     async fn run(self, upgrade: OnUpgrade, doors: Doors) {
-        let phases = doors.phases.clone();
+        let phases = doors.readiness.phases.clone();
         let conversing = async {
             match upgrade.await {
                 Ok(upgraded) => self.converse(upgraded, doors).await,

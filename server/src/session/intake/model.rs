@@ -104,7 +104,7 @@ impl World {
     fn new(forgets_epochs: bool) -> Self {
         let mut intake = intake(forgets_epochs);
         Self {
-            feed: intake.record().unwrap(),
+            feed: intake.record(None).unwrap(),
             intake,
             clock: ServerClock::start(std::time::UNIX_EPOCH),
             now_nanos: 0,
@@ -209,7 +209,7 @@ impl World {
     fn crash(&mut self) {
         self.record.truncate(self.n_flushed);
         self.intake = intake(self.forgets_epochs);
-        self.feed = self.intake.record().unwrap();
+        self.feed = self.intake.record(None).unwrap();
         self.asked = [None, None];
         self.streams = [None, None];
     }

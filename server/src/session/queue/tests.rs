@@ -84,7 +84,6 @@ proptest! {
                 0 => { out.extend(queue.pop().map(|it| { let mut one = WorkQueue::new(16, 1 << 20, BufferBudget::new(1)); match it {
                     Work::Frame(it) => one.push_frame(*it), Work::Gaps(it) => one.push_gaps(it), Work::Command(_) => {} } drained(&mut one) }).into_iter().flatten()); }
                 1 => { queue.shed_oldest(); }
-                2 => queue.give_up_frames(GapCause::NotAligned),
                 _ => {
                     let mut frame = waiting(next);
                     if step == 3 {

@@ -3,7 +3,7 @@
 use super::*;
 use crate::{
     fs::MemFs,
-    take::{channel, chunk::ChunkBuffer, rewrite::rewrite},
+    take::{chunk::ChunkBuffer, head::growing_head, rewrite::rewrite},
 };
 
 const DIR: &str = "/takes";
@@ -17,7 +17,7 @@ fn file() -> std::path::PathBuf {
 fn growing(fs: &MemFs, n_commits: u32) -> Vec<u64> {
     let mut file = fs.create(&file()).unwrap();
     let mut ends = Vec::new();
-    file.append(&channel::head().unwrap()).unwrap();
+    file.append(growing_head().unwrap()).unwrap();
     for sequence in 0..n_commits {
         let mut buffer = ChunkBuffer::default();
         for channel in [Channel::Markers, Channel::Curves] {

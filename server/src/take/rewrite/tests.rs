@@ -5,7 +5,7 @@ use frontalis_proto::v1::MarkerFrame;
 use super::*;
 use crate::{
     fs::MemFs,
-    take::{chunk::ChunkBuffer, finished::finished},
+    take::{chunk::ChunkBuffer, finished::finished, head::growing_head},
 };
 
 const DIR: &str = "/takes";
@@ -14,8 +14,8 @@ const NAME: &str = "one.mcap";
 /// A growing file of one frame and one sample a commit, and where its commits end.
 fn growing(fs: &MemFs, n_frames: u64) -> Vec<usize> {
     let mut file = fs.create(&Path::new(DIR).join(NAME)).unwrap();
-    let head = channel::head().unwrap();
-    file.append(&head).unwrap();
+    let head = growing_head().unwrap();
+    file.append(head).unwrap();
     let mut ends = vec![head.len()];
     for number in 1..=n_frames {
         let frame = MarkerFrame {

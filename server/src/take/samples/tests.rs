@@ -6,9 +6,9 @@ use super::*;
 use crate::{
     fs::MemFs,
     take::{
-        channel,
         chunk::{ChunkBuffer, Message},
         growth::Written,
+        head::growing_head,
         rewrite::rewrite,
     },
 };
@@ -64,9 +64,9 @@ fn sample(sequence: u64, frame: u64) -> v1::CurveSample {
 
 /// A file of three frames a commit; returns what a reader from its beginning gets.
 fn write(fs: &MemFs) -> (Growth, Vec<(u64, u64)>) {
-    let head = channel::head().unwrap();
+    let head = growing_head().unwrap();
     let mut out = fs.create(&file()).unwrap();
-    out.append(&head).unwrap();
+    out.append(head).unwrap();
     let mut writer = Writer {
         fs,
         growth: Growth::new(3, head.len() as u64),
@@ -189,7 +189,7 @@ fn no_more_is_read_than_was_said_to_be_on_stable_storage() {
     let fs = MemFs::default();
     let (growth, entries) = write(&fs);
     let n_committed = growth.around_frame(N_FRAMES / 2).1;
-    let n_head = channel::head().unwrap().len() as u64;
+    let n_head = growing_head().unwrap().len() as u64;
     let half = Growth::new(3, n_head);
     half.commit(n_committed - n_head, Written::default(), Written::default());
     let mut reader = SampleReader::open(&fs, &file(), Some(&half), FIRST, 0).unwrap();

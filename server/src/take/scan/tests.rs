@@ -5,7 +5,7 @@ use std::path::Path;
 use super::*;
 use crate::{
     fs::{Fs as _, MemFs},
-    take::{channel::Channel, chunk::ChunkBuffer},
+    take::{channel::Channel, chunk::ChunkBuffer, head::growing_head},
 };
 
 const FILE: &str = "/takes/one.mcap";
@@ -25,7 +25,7 @@ fn chunk(sequence: u32) -> Vec<u8> {
 
 /// Head and chunks, and where each of them starts.
 fn file(n_chunks: u32) -> (Vec<u8>, Vec<usize>) {
-    let mut bytes = channel::head().unwrap();
+    let mut bytes = growing_head().unwrap().to_vec();
     let mut starts = Vec::new();
     for sequence in 0..n_chunks {
         starts.push(bytes.len());

@@ -70,6 +70,7 @@ pub fn sample_to_wire(published: &PublishedSample, detail: SampleDetail) -> v1::
         held_frames: sample.held_frames,
         source_frame: tag.source_frame,
         flags: flags(sample, tag),
+        capture_time_server_nanos: tag.capture_time_server_nanos.unwrap_or(0),
         unobserved: indices(&sample.unobserved),
         outlier_markers: indices(&sample.outliers),
         ..v1::CurveSample::default()

@@ -66,7 +66,6 @@ fn changed(
     change: &Change<'_>,
     base: &SessionSettings,
 ) -> Result<SessionSettings, FieldError> {
-    refuse_what_is_not_built(change, asked)?;
     let default = SessionSettings::default();
     let mut next = base.clone();
     let (marker, default_marker) = (&mut next.marker, &default.marker);
@@ -121,10 +120,17 @@ fn changed(
         &mut next.publisher_timeout,
         default.publisher_timeout,
     );
+    change.put("record", asked.record, &mut next.record, default.record);
+    change.put(
+        "record_images",
+        asked.record_images,
+        &mut next.record_images,
+        default.record_images,
+    );
     Ok(next)
 }
 
-/// All settings as they are in force; what is not built is off.
+/// All settings as they are in force.
 pub fn effective(settings: &SessionSettings) -> v1::SessionSettings {
     let marker = &settings.marker;
     let region_mode = match marker.region_mode {
@@ -142,15 +148,24 @@ pub fn effective(settings: &SessionSettings) -> v1::SessionSettings {
         stabilize_head: Some(marker.stabilize_head),
         stale_after: settings.stale_after.and_then(proto),
         publisher_timeout: proto(settings.publisher_timeout),
-        record: Some(false),
+        record: Some(settings.record),
         region_mode: region_mode.into(),
         plain: Some(objective.is_plain()),
         align_on_request: Some(marker.align_on_request),
-        record_images: Some(false),
+        record_images: Some(settings.record_images),
         symmetry: Some(narrow(objective.symmetry)),
         bounds: objective::bounds_to_wire(objective),
         exclusive_pairs: objective::pairs_to_wire(objective),
     }
+}
+
+/// The settings that [`effective`] wrote down.
+///
+/// # Errors
+///
+/// The first field that none of ours has.
+pub fn of_effective(written: &v1::SessionSettings) -> Result<SessionSettings, FieldError> {
+    apply(written, &[], &SessionSettings::default())
 }
 
 /// Which fields a request changes.
@@ -191,23 +206,6 @@ fn check_mask(mask: &[String]) -> Result<(), FieldError> {
         }
         None => Ok(()),
     }
-}
-
-/// What later work fills may be asked to stay off, and nothing else.
-fn refuse_what_is_not_built(
-    change: &Change<'_>,
-    asked: &v1::SessionSettings,
-) -> Result<(), FieldError> {
-    let switches = [
-        ("record", asked.record),
-        ("record_images", asked.record_images),
-    ];
-    for (field, on) in switches {
-        if change.wanted(field, on, false) == Some(true) {
-            return Err(FieldError::new(field, FieldProblem::NotImplemented));
-        }
-    }
-    Ok(())
 }
 
 fn neutral_frames(count: u32) -> Result<usize, FieldError> {

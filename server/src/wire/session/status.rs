@@ -11,6 +11,7 @@ use crate::{
     session::{AlignmentReport, ControlRange, SessionStatus, StageLatency},
     wire::{
         actor::finite,
+        capture::clock_report,
         common::{narrow, session_state},
     },
 };
@@ -45,7 +46,7 @@ pub(super) fn status(status: &SessionStatus) -> v1::SessionStatus {
         ranges: status.ranges.iter().map(range).collect(),
         run: status.run,
         alignment_problem: status.alignment_problem.unwrap_or_default().to_owned(),
-        clock: None,
+        clock: status.clock.as_ref().map(clock_report),
         unknown_markers: status.unknown_markers.clone(),
         neutral_doubt: status.neutral_doubt.as_ref().map(doubt),
     }

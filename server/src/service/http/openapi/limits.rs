@@ -4,7 +4,13 @@ use frontalis_analysis::marker_analysis::objective::{LARGEST_BOUND, MAX_EXCLUSIV
 use frontalis_proto::v1;
 use serde_json::{Value, json};
 
-use crate::service::http::call::BodyMessage;
+use crate::{
+    service::http::call::BodyMessage,
+    wire::take::{MAX_LABEL, MAX_NOTES},
+};
+
+/// What a take may begin with: up to ten seconds.
+const PRE_ROLL: &str = r"^([0-9](\.[0-9]{1,9})?|10)s$";
 
 /// `actors/ID`.
 const ACTOR: &str = "^actors/[a-z0-9][a-z0-9_-]{0,62}$";
@@ -33,12 +39,21 @@ const MASK: &str = concat!(
     r"|publisherTimeout|record|regionMode|plain|alignOnRequest|recordImages|symmetry|bounds|exclusivePairs)(,|$))*$"
 );
 
+/// Slate, gesture and notes: no control characters but the end of a line.
+const TAKE_TEXT: &str = r"^[^\u0000-\u0009\u000b-\u001f\u007f-\u009f]*$";
+/// Paths of `Take` that may change.
+const TAKE_MASK: &str = r"^((take\.)?(slate|number|gesture|circled|notes)(,|$))*$";
+/// `sessions/ID`.
+const SESSION: &str = "^sessions/[a-z0-9][a-z0-9_-]{0,62}$";
+
 /// Fields that the path of the operation says, and its body therefore must not.
 pub(super) fn in_path(message: &str) -> &'static [&'static str] {
     match message {
         "UpdateSessionRequest" => v1::UpdateSessionRequest::IN_PATH,
         "RecenterSessionRequest" => v1::RecenterSessionRequest::IN_PATH,
         "EndSessionRequest" => v1::EndSessionRequest::IN_PATH,
+        "StopTakeRequest" => v1::StopTakeRequest::IN_PATH,
+        "ResolveTakeRequest" => v1::ResolveTakeRequest::IN_PATH,
         _ => &[],
     }
 }
@@ -48,6 +63,8 @@ pub(super) fn may_be_absent(message: &str) -> bool {
     match message {
         "RecenterSessionRequest" => v1::RecenterSessionRequest::MAY_BE_ABSENT,
         "EndSessionRequest" => v1::EndSessionRequest::MAY_BE_ABSENT,
+        "StopTakeRequest" => v1::StopTakeRequest::MAY_BE_ABSENT,
+        "ResolveTakeRequest" => v1::ResolveTakeRequest::MAY_BE_ABSENT,
         _ => false,
     }
 }
@@ -56,6 +73,7 @@ pub(super) fn may_be_absent(message: &str) -> bool {
 pub(super) fn required(message: &str) -> &'static [&'static str] {
     match message {
         "CreateSessionRequest" => &["actor", "kind"],
+        "StartTakeRequest" => &["session"],
         _ => &[],
     }
 }
@@ -88,11 +106,20 @@ pub(super) fn of(message: &str, field: &str) -> Option<Value> {
             json!({ "minimum": 0, "maximum": 1, "pattern": STRENGTH })
         }
         // Off, until this version can.
-        ("SessionSettings", "record" | "record_images") => json!({ "enum": [false] }),
+        ("SessionSettings", "record_images") | ("StartTakeRequest", "with_images") => {
+            json!({ "enum": [false] })
+        }
         ("ControlBounds", "lower" | "upper") => {
             json!({ "minimum": 0, "maximum": LARGEST_BOUND, "pattern": BOUND })
         }
         ("SessionSettings", "stale_after" | "publisher_timeout") => json!({ "pattern": DURATION }),
+        ("StartTakeRequest", "pre_roll") => json!({ "pattern": PRE_ROLL }),
+        ("StartTakeRequest", "session") => json!({ "pattern": SESSION }),
+        ("StartTakeRequest" | "Take", "slate" | "gesture") => {
+            json!({ "maxLength": MAX_LABEL, "pattern": TAKE_TEXT })
+        }
+        ("Take", "notes") => json!({ "maxLength": MAX_NOTES, "pattern": TAKE_TEXT }),
+        ("UpdateTakeRequest", "update_mask") => json!({ "pattern": TAKE_MASK }),
         _ => return None,
     };
     Some(limit)

@@ -7,6 +7,7 @@ pub(super) fn schemas() -> Map<String, Value> {
     [
         ("Problem", problem()),
         ("Package", package()),
+        ("TakeFile", take_file()),
         ("ImportActorLine", import_line()),
         ("CurveEvent", curve_event()),
     ]
@@ -53,6 +54,14 @@ fn package() -> Value {
         "type": "string",
         "format": "binary",
         "description": "A GLB or a ZIP: see ACTOR_PACKAGE in the documentation.",
+    })
+}
+
+fn take_file() -> Value {
+    json!({
+        "type": "string",
+        "format": "binary",
+        "description": "A take in the format that was asked for.",
     })
 }
 

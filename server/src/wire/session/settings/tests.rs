@@ -301,22 +301,18 @@ fn a_masked_term_that_is_absent_goes_back_to_its_default() {
 }
 
 #[test]
-fn what_is_not_built_is_refused_when_asked_for_and_accepted_as_off() {
-    let on = |change: fn(&mut v1::SessionSettings)| {
-        let mut asked = off();
-        change(&mut asked);
-        refused(asked)
-    };
-    assert_eq!(
-        on(|it| it.record = Some(true)),
-        ("record", "NOT_IMPLEMENTED")
-    );
-    assert_eq!(
-        on(|it| it.record_images = Some(true)),
-        ("record_images", "NOT_IMPLEMENTED")
-    );
+fn recording_is_switched_on_and_off_and_comes_back_as_it_is() {
     let base = SessionSettings::default();
-    assert_eq!(apply(&effective(&base), &[], &base).unwrap(), base);
+    let asked = v1::SessionSettings {
+        record: Some(true),
+        record_images: Some(true),
+        ..v1::SessionSettings::default()
+    };
+    let on = apply(&asked, &[], &base).unwrap();
+    assert!(on.record && on.record_images);
+    assert_eq!(of_effective(&effective(&on)).unwrap(), on);
+    let off = apply(&effective(&base), &[], &on).unwrap();
+    assert_eq!(off, base);
 }
 
 #[test]
