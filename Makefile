@@ -31,7 +31,7 @@ clean-demo: ## Forget what the demo stored
 
 .PHONY: test
 test: clients runner ## Every test there is; ends with the runner's own count
-	cargo build --workspace --bins --quiet
+	cargo build --workspace --bins --tests --quiet
 	cargo test --workspace --doc --quiet
 	@if ! cargo nextest --version >/dev/null 2>&1; then \
 	  cargo test --workspace --lib --bins --tests --no-fail-fast; \
@@ -165,7 +165,7 @@ bench-late: ## A renderer that sleeps 20 s at 120 Hz: what it gets when it wakes
 
 .PHONY: bench-abuse
 bench-abuse: ## What abuse of HTTP/2 and of connections costs the server: the figures of docs/reliability.md
-	cargo build --workspace --bins --quiet
+	cargo build --workspace --bins --tests --quiet
 	@cargo test --package frontalis-tests --test end_to_end -- --nocapture --test-threads 1 \
 	  bad_input::http2 bad_input::connections bad_input::tls | grep --extended-regexp 'G12|F[0-9]+|test result'
 

@@ -9,6 +9,8 @@
 //! | [`backoff`] | how long to wait before trying again |
 //! | [`simulated_stage`] | an actor, cameras and a performance, for a stage without a studio |
 //! | [`recorded_take`] | what a take recorded, message after message |
+//! | [`take_difference`] | where the curves of two takes differ |
+//! | [`picture`] | drawings as SVG |
 //! | [`take_file`] | a TRC or C3D file as frames to publish or to solve |
 //! | [`solve`] | the same analysis without a server |
 //! | [`csv`] | samples as rows of a table, the same bytes from a server and from a file |
@@ -21,9 +23,11 @@ pub mod curve_client;
 pub mod error;
 #[cfg(test)]
 mod fake_server;
+pub mod picture;
 pub mod recorded_take;
 pub mod simulated_stage;
 pub mod solve;
+pub mod take_difference;
 pub mod take_file;
 
 /// The wire types that the clients speak.

@@ -10,7 +10,7 @@ use std::{
     path::Path,
 };
 
-use frontalis_proto::v1::{MarkerFrame, TakeEvent, take_event::Event};
+use frontalis_proto::v1::{CurveSample, MarkerFrame, TakeEvent, take_event::Event};
 use futures::{Stream, StreamExt as _, stream, stream::BoxStream};
 use mcap::{
     McapError,
@@ -50,11 +50,13 @@ pub enum RecordedTakeError {
     },
 }
 
-/// One thing that was recorded; samples are passed over.
+/// One thing that was recorded.
 #[derive(Clone, Debug, PartialEq)]
 pub enum RecordedMessage {
     /// A frame as it came.
     Frame(MarkerFrame),
+    /// What the frame was solved to.
+    Sample(Box<CurveSample>),
     /// What happened between frames.
     Event(Box<Event>),
 }
@@ -179,6 +181,10 @@ fn message(topic: &str, data: &[u8]) -> Result<Option<RecordedMessage>, Recorded
             let frame = MarkerFrame::decode(data).map_err(is_none)?;
             Ok(Some(RecordedMessage::Frame(frame)))
         }
+        "/curves" => {
+            let sample = CurveSample::decode(data).map_err(is_none)?;
+            Ok(Some(RecordedMessage::Sample(Box::new(sample))))
+        }
         "/events" => {
             let event = TakeEvent::decode(data).map_err(is_none)?.event;
             Ok(event.map(|it| RecordedMessage::Event(Box::new(it))))
@@ -188,9 +194,10 @@ fn message(topic: &str, data: &[u8]) -> Result<Option<RecordedMessage>, Recorded
 }
 
 #[cfg(test)]
-mod tests {
-    use mcap::{Writer, records::MessageHeader};
+pub(crate) mod test_file;
 
+#[cfg(test)]
+mod tests {
     use super::*;
 
     fn frame(number: u64) -> MarkerFrame {
@@ -203,29 +210,10 @@ mod tests {
 
     /// A file of 100 frames and a header before them.
     fn file() -> Vec<u8> {
-        let mut writer = Writer::new(io::Cursor::new(Vec::new())).unwrap();
-        let schema = writer.add_schema("any", "protobuf", &[]).unwrap();
-        let topics = ["/events", "/markers"];
-        let [events, markers] = topics.map(|topic| {
-            let channel = writer.add_channel(schema, topic, "protobuf", &[].into());
-            channel.unwrap()
-        });
-        let mut write = |channel_id, data: Vec<u8>| {
-            let header = MessageHeader {
-                channel_id,
-                sequence: 0,
-                log_time: 0,
-                publish_time: 0,
-            };
-            writer.write_to_known_channel(&header, &data).unwrap();
-        };
         let event = Some(Event::Header(proto::TakeHeader::default()));
-        write(events, TakeEvent { event }.encode_to_vec());
-        for number in 1..=100 {
-            write(markers, frame(number).encode_to_vec());
-        }
-        writer.finish().unwrap();
-        writer.into_inner().into_inner()
+        let header = ("/events", TakeEvent { event }.encode_to_vec());
+        let frames = (1..=100).map(|number| ("/markers", frame(number).encode_to_vec()));
+        test_file::written([header].into_iter().chain(frames))
     }
 
     async fn read(bytes: &[u8], piece_bytes: usize) -> Vec<RecordedMessage> {

@@ -3,6 +3,7 @@
 mod c3d_files;
 mod copied;
 mod crash;
+mod diff;
 mod downloads;
 mod exports;
 mod labels;
@@ -57,11 +58,7 @@ pub async fn get(server: &TestServer, name: &str) -> Result<Take, Status> {
     Ok(answer.into_inner().take.unwrap())
 }
 
-/// The take's file.
-pub async fn export(server: &TestServer, name: &str) -> Vec<u8> {
-    let exported = export_as(server, name, TakeFormat::Mcap).await;
-    exported.unwrap().0
-}
+pub use harness::export_mcap as export;
 
 /// The take in a format, and what was said of it last.
 async fn export_as(

@@ -2,13 +2,16 @@
 
 use std::{fmt, time::Duration};
 
-use frontalis_proto::v1::{ExportTakeRequest, GetTakeRequest, StartTakeRequest, Take, TakeState};
+use frontalis_proto::v1::{StartTakeRequest, TakeState};
 use futures::future::join_all;
 use rand::{Rng as _, RngExt as _, SeedableRng as _};
 use rand_pcg::Pcg64;
 use tokio::time::Instant;
 
-use crate::{Publisher, RecordedTake, TestPerformance, TestServer};
+use crate::{
+    Publisher, RecordedTake, TestPerformance, TestServer,
+    take_calls::{export_mcap, take_in_order},
+};
 
 /// Frames that a publisher has on their way.
 const AHEAD: u64 = 64;
@@ -158,13 +161,13 @@ impl KillReport {
     async fn check(&mut self, server: &TestServer, killed: &Killed) {
         self.n_takes += 1;
         self.n_durable += killed.durable_through;
-        let take = in_order(server, &killed.take).await;
+        let take = take_in_order(server, &killed.take).await;
         if take.state() != TakeState::Closed || !take.recovered {
             eprintln!("{take:?}");
             self.n_unopenable += 1;
             return;
         }
-        let recorded = RecordedTake::read(&export(server, &take.name).await);
+        let recorded = RecordedTake::read(&export_mcap(server, &take.name).await);
         let performance = TestPerformance::reference();
         let mut last = 0;
         for frame in &recorded.frames {
@@ -179,34 +182,6 @@ impl KillReport {
         let n_found = durable.filter(is_there).count() as u64;
         self.n_lost += killed.durable_through - n_found;
     }
-}
-
-/// The take once it is no longer being recovered.
-async fn in_order(server: &TestServer, name: &str) -> Take {
-    let mut client = server.takes().await;
-    loop {
-        let name = name.to_owned();
-        let answer = client.get_take(GetTakeRequest { name }).await.unwrap();
-        let take = answer.into_inner().take.unwrap();
-        if take.state() != TakeState::Recovering {
-            return take;
-        }
-        tokio::time::sleep(Duration::from_millis(5)).await;
-    }
-}
-
-async fn export(server: &TestServer, name: &str) -> Vec<u8> {
-    let request = ExportTakeRequest {
-        name: name.to_owned(),
-        ..ExportTakeRequest::default()
-    };
-    let mut client = server.takes().await;
-    let mut pieces = client.export_take(request).await.unwrap().into_inner();
-    let mut file = Vec::new();
-    while let Some(piece) = pieces.message().await.unwrap() {
-        file.extend(piece.chunk);
-    }
-    file
 }
 
 impl fmt::Display for KillReport {

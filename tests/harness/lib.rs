@@ -38,6 +38,7 @@ mod server_program;
 mod shared_data;
 mod stall;
 mod subscriber;
+mod take_calls;
 mod tls;
 mod vanishing;
 
@@ -70,5 +71,6 @@ pub use server_program::ServerProgram;
 pub use shared_data::data_dir;
 pub use stall::{StallProfile, StallReport};
 pub use subscriber::{Heard, Subscriber, every_frame, latest};
+pub use take_calls::{export_mcap, take_in_order};
 pub use tls::{ClientCert, TestAuthority, TestTls};
 pub use vanishing::Vanishing;

@@ -26,8 +26,9 @@ fn build(name: &str) -> PathBuf {
     let target = target_folder();
     let built = Command::new(env!("CARGO"))
         .current_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join(".."))
-        // With the whole workspace, so that dependencies have the features they were built with before.
-        .args(["build", "--quiet", "--locked", "--workspace", "--bin", name])
+        // With the whole workspace and its tests, so that dependencies have the features they were built with before.
+        .args(["build", "--quiet", "--locked", "--workspace", "--tests"])
+        .args(["--bin", name])
         .arg("--target-dir")
         .arg(&target)
         .status()

@@ -8,14 +8,14 @@ use std::{
     time::Duration,
 };
 
-use frontalis_proto::v1::{GetTakeRequest, StartTakeRequest, TakeState};
+use frontalis_proto::v1::{StartTakeRequest, TakeState};
 use frontalis_server::{
     catalogue::{Catalogue, TakeContent, TakeLabels, TakeRow, TakeState as StoredState},
     name::{ActorId, SessionId, TakeId},
 };
 use tokio::time::Instant;
 
-use crate::{Publisher, RecordedTake, TestPerformance, TestServer};
+use crate::{Publisher, RecordedTake, TestPerformance, TestServer, take_calls::take_in_order};
 
 /// Opcode of a chunk in a take's file.
 const CHUNK: u8 = 0x06;
@@ -69,9 +69,9 @@ impl RecoveryProfile {
         let ready_millis = started.elapsed().as_secs_f64() * 1e3;
         let ready = Instant::now();
         if self.n_open > 0 {
-            in_order(&server, &format!("takes/a-{:08}", self.n_open - 1)).await;
+            frames_in_order(&server, &format!("takes/a-{:08}", self.n_open - 1)).await;
         }
-        let n_found = in_order(&server, &name).await;
+        let n_found = frames_in_order(&server, &name).await;
         RecoveryReport {
             profile: self,
             n_bytes,
@@ -98,18 +98,10 @@ async fn record(server: &TestServer) -> String {
 }
 
 /// Waits until a take is in order; its frames.
-async fn in_order(server: &TestServer, name: &str) -> u64 {
-    let mut client = server.takes().await;
-    loop {
-        let name = name.to_owned();
-        let answer = client.get_take(GetTakeRequest { name }).await.unwrap();
-        let take = answer.into_inner().take.unwrap();
-        if take.state() != TakeState::Recovering {
-            assert_eq!(take.state(), TakeState::Closed);
-            return take.n_frames;
-        }
-        tokio::time::sleep(Duration::from_millis(20)).await;
-    }
+async fn frames_in_order(server: &TestServer, name: &str) -> u64 {
+    let take = take_in_order(server, name).await;
+    assert_eq!(take.state(), TakeState::Closed);
+    take.n_frames
 }
 
 /// Where the records of a growing file begin, in order.

@@ -1,8 +1,10 @@
 //! `frontalis take …`: record sessions, and what becomes of the recordings.
 
+mod diff;
 mod export;
 mod play;
 mod resolve;
+mod source;
 
 use std::process::ExitCode;
 
@@ -41,6 +43,8 @@ pub enum TakeCommand {
     Play(PlayArgs),
     /// Solve a take again into a new one, with another revision of the actor or other settings
     Resolve(ResolveArgs),
+    /// Where the curves of two takes differ, muscle by muscle: largest, RMS, and a picture
+    Diff(diff::DiffArgs),
     /// Erase a take; nothing of it stays on the server's disk, and it cannot be brought back
     Delete(DeleteArgs),
 }
@@ -131,9 +135,12 @@ pub async fn run(context: &Context, command: TakeCommand) -> anyhow::Result<Exit
     {
         anyhow::bail!("{what} without --yes: nothing of it would be left");
     }
-    if let TakeCommand::Play(args) = command {
-        return play::run(context, args).await.context(what);
-    }
+    // Those that tell more than what became of a take.
+    let command = match command {
+        TakeCommand::Play(args) => return play::run(context, args).await.context(what),
+        TakeCommand::Diff(args) => return diff::run(context, &args).await.context(what),
+        other => other,
+    };
     let mut client = TakeServiceClient::new(context.connect().await?);
     let take = match command {
         TakeCommand::List(args) => {
@@ -155,7 +162,9 @@ pub async fn run(context: &Context, command: TakeCommand) -> anyhow::Result<Exit
             say(format!("take {} is erased", args.id))?;
             return Ok(ExitCode::SUCCESS);
         }
-        TakeCommand::Play(_) => unreachable!("invariant: it was played above"),
+        TakeCommand::Play(_) | TakeCommand::Diff(_) => {
+            unreachable!("invariant: they were run above")
+        }
         TakeCommand::Start(args) => start(&mut client, args).await,
         TakeCommand::Stop(args) => stop(&mut client, &args).await,
         TakeCommand::Show(args) => show(&mut client, &args).await,
@@ -182,6 +191,7 @@ impl TakeCommand {
             Self::Label(args) => format!("cannot change take {}", args.id),
             Self::Export(args) => format!("cannot save take {}", args.id),
             Self::Play(args) => format!("cannot play {}", args.take()),
+            Self::Diff(args) => format!("cannot compare {} and {}", args.first, args.second),
             Self::Resolve(args) => format!("cannot solve take {} again", args.id),
             Self::Delete(args) => format!("cannot erase take {}", args.id),
         }

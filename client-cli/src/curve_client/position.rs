@@ -6,7 +6,7 @@
 use super::{CurveEvent, StartAt};
 use crate::{
     error::ClientError,
-    proto::{CurveSample, Gap},
+    proto::{CurveHeader, CurveSample, Gap},
 };
 
 /// The run and the last sample of a subscription to every frame.
@@ -15,22 +15,27 @@ pub(super) struct Position {
     run: u64,
     last_sequence: u64,
     last_frame: u64,
-    /// The first sample of the run is wanted: the run before it was followed to its end.
-    wants_first: bool,
+    /// The first sample that is wanted of the run; 0: not known.
+    first_sequence: u64,
     /// Where to go on when the sample after the last cannot be had.
     elsewhere: Option<StartAt>,
 }
 
 impl Position {
-    /// A header arrived; tells of a run that began meanwhile.
-    pub fn enter_run(&mut self, run: u64) -> Option<CurveEvent> {
+    /// A header arrived; tells of a run that began meanwhile. The run before it was followed to its end, so that all of a new
+    /// one is wanted.
+    pub fn begin(&mut self, header: &CurveHeader) -> Option<CurveEvent> {
+        let run = header.run;
         let previous = std::mem::replace(&mut self.run, run);
+        if previous == 0 {
+            self.first_sequence = header.next_sequence;
+        }
         if previous == 0 || previous == run {
             return None;
         }
         *self = Self {
             run,
-            wants_first: true,
+            first_sequence: 1,
             ..Self::default()
         };
         Some(CurveEvent::NewRun {
@@ -39,18 +44,17 @@ impl Position {
         })
     }
 
-    /// Where to subscribe again. Without a sample so far there was none when the subscription began, so that the
-    /// oldest is the next.
+    /// Where to subscribe again.
     pub fn resume(&self, asked_for: StartAt) -> StartAt {
         if let Some(elsewhere) = self.elsewhere {
             return elsewhere;
         }
         match (self.run, self.last_sequence) {
             (0, _) => asked_for,
-            (run, 0) if self.wants_first => StartAt::Sequence { run, sequence: 1 },
-            (_, 0) => match asked_for {
-                StartAt::Sequence { .. } => asked_for,
-                StartAt::Now | StartAt::Oldest => StartAt::Oldest,
+            (_, 0) if self.first_sequence == 0 => asked_for,
+            (run, 0) => StartAt::Sequence {
+                run,
+                sequence: self.first_sequence,
             },
             (run, last) => StartAt::Sequence {
                 run,
@@ -94,10 +98,13 @@ impl Position {
             return Vec::new();
         }
         let mut events = Vec::with_capacity(2);
-        let knows_the_next = self.last_sequence != 0 || self.wants_first;
-        if knows_the_next && sequence > self.last_sequence + 1 {
+        let expected = match self.last_sequence {
+            0 => self.first_sequence,
+            last => last + 1,
+        };
+        if expected != 0 && sequence > expected {
             events.push(CurveEvent::Lost {
-                first_sequence: self.last_sequence + 1,
+                first_sequence: expected,
                 last_sequence: sequence - 1,
             });
         }
@@ -124,6 +131,14 @@ impl Position {
 mod tests {
     use super::*;
 
+    fn header(run: u64, next_sequence: u64) -> CurveHeader {
+        CurveHeader {
+            run,
+            next_sequence,
+            ..CurveHeader::default()
+        }
+    }
+
     fn sample(sequence: u64) -> CurveSample {
         CurveSample {
             frame: sequence + 100,
@@ -136,8 +151,12 @@ mod tests {
     fn goes_on_after_the_last_sample_of_its_run() {
         let mut position = Position::default();
         assert_eq!(position.resume(StartAt::Now), StartAt::Now);
-        assert_eq!(position.enter_run(3), None);
-        assert_eq!(position.resume(StartAt::Now), StartAt::Oldest);
+        assert_eq!(position.begin(&header(3, 0)), None);
+        assert_eq!(
+            position.resume(StartAt::Now),
+            StartAt::Now,
+            "no more is known"
+        );
         position.sample(sample(41));
         let expected = StartAt::Sequence {
             run: 3,
@@ -149,7 +168,7 @@ mod tests {
     #[test]
     fn a_hole_is_reported_exactly_and_a_repetition_not_at_all() {
         let mut position = Position::default();
-        position.enter_run(1);
+        position.begin(&header(1, 0));
         assert_eq!(position.sample(sample(5)).len(), 1);
         assert_eq!(position.sample(sample(5)), []);
         let events = position.sample(sample(9));
@@ -163,7 +182,7 @@ mod tests {
     #[test]
     fn of_a_gap_only_what_lies_behind_the_last_frame_is_told() {
         let mut position = Position::default();
-        position.enter_run(1);
+        position.begin(&header(1, 0));
         position.sample(sample(5));
         let gap = |first, last| Gap {
             first,
@@ -181,7 +200,7 @@ mod tests {
     #[test]
     fn a_place_that_is_gone_goes_on_at_the_oldest_and_tells_what_was_lost() {
         let mut position = Position::default();
-        position.enter_run(1);
+        position.begin(&header(1, 0));
         position.sample(sample(5));
         let refusal = ClientError::local(tonic::Code::DataLoss, "lost");
         position.lose_place(&refusal);
@@ -206,7 +225,7 @@ mod tests {
     #[test]
     fn a_refusal_says_where_there_is_more() {
         let mut position = Position::default();
-        position.enter_run(1);
+        position.begin(&header(1, 0));
         position.sample(sample(5));
         let at = |run, sequence| StartAt::Sequence { run, sequence };
         position.lose_place(&refusal("SUBSCRIBER_LAGGED", "last_lost", "8"));
@@ -218,7 +237,7 @@ mod tests {
         assert_eq!(position.resume(StartAt::Now), StartAt::Oldest);
         position.lose_place(&refusal("NEW_RUN", "run", "2"));
         assert_eq!(position.resume(StartAt::Now), at(2, 1));
-        position.enter_run(2);
+        position.begin(&header(2, 0));
         let lost = CurveEvent::Lost {
             first_sequence: 1,
             last_sequence: 3,
@@ -227,6 +246,24 @@ mod tests {
             position.sample(sample(4)),
             [lost, CurveEvent::Sample(sample(4))]
         );
+    }
+
+    #[test]
+    fn before_its_first_sample_it_goes_on_where_it_began() {
+        let mut position = Position::default();
+        position.begin(&header(3, 41));
+        let expected = StartAt::Sequence {
+            run: 3,
+            sequence: 41,
+        };
+        assert_eq!(position.resume(StartAt::Now), expected);
+        position.begin(&header(3, 50));
+        let lost = CurveEvent::Lost {
+            first_sequence: 41,
+            last_sequence: 49,
+        };
+        let events = position.sample(sample(50));
+        assert_eq!(events, [lost, CurveEvent::Sample(sample(50))]);
     }
 
     #[test]
@@ -244,13 +281,13 @@ mod tests {
     #[test]
     fn a_new_run_is_reported_and_counts_anew() {
         let mut position = Position::default();
-        position.enter_run(1);
+        position.begin(&header(1, 0));
         position.sample(sample(500));
         let new_run = CurveEvent::NewRun {
             previous: 1,
             present: 2,
         };
-        assert_eq!(position.enter_run(2), Some(new_run));
+        assert_eq!(position.begin(&header(2, 0)), Some(new_run));
         assert_eq!(position.sample(sample(1)).len(), 1);
     }
 }

@@ -218,7 +218,7 @@ impl Subscription {
     fn take(&mut self, response: SubscribeResponse) {
         if let Some(header) = response.header {
             self.has_header = true;
-            self.pending.extend(self.position.enter_run(header.run));
+            self.pending.extend(self.position.begin(&header));
             self.pending.push_back(CurveEvent::Header(header));
         }
         if response.skipped_samples > self.skipped_here {

@@ -146,7 +146,7 @@ pub fn takes(takes: &[Take]) -> Table {
 }
 
 /// As a clock on the stage shows it: `;` before the frames where labels are dropped; empty without one.
-fn timecode(timecode: Option<&Timecode>) -> String {
+pub fn timecode(timecode: Option<&Timecode>) -> String {
     timecode.map_or_else(String::new, |it| {
         let mark = if it.drop_frame { ';' } else { ':' };
         format!(

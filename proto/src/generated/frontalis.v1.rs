@@ -3890,6 +3890,9 @@ pub struct CurveHeader {
     /// Unix time minus the server's monotonic clock
     #[prost(sfixed64, tag = "9")]
     pub unix_offset_nanos: i64,
+    /// EVERY_FRAME: of the first sample of this subscription, where it can be resumed until that
+    #[prost(uint64, tag = "10")]
+    pub next_sequence: u64,
 }
 impl ::prost::Name for CurveHeader {
     const NAME: &'static str = "CurveHeader";

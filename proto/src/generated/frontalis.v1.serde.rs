@@ -2436,6 +2436,9 @@ impl serde::Serialize for CurveHeader {
         if self.unix_offset_nanos != 0 {
             len += 1;
         }
+        if self.next_sequence != 0 {
+            len += 1;
+        }
         let mut struct_ser = serializer.serialize_struct("frontalis.v1.CurveHeader", len)?;
         if !self.session.is_empty() {
             struct_ser.serialize_field("session", &self.session)?;
@@ -2470,6 +2473,11 @@ impl serde::Serialize for CurveHeader {
             #[allow(clippy::needless_borrows_for_generic_args)]
             struct_ser.serialize_field("unixOffsetNanos", ToString::to_string(&self.unix_offset_nanos).as_str())?;
         }
+        if self.next_sequence != 0 {
+            #[allow(clippy::needless_borrow)]
+            #[allow(clippy::needless_borrows_for_generic_args)]
+            struct_ser.serialize_field("nextSequence", ToString::to_string(&self.next_sequence).as_str())?;
+        }
         struct_ser.end()
     }
 }
@@ -2494,6 +2502,8 @@ impl<'de> serde::Deserialize<'de> for CurveHeader {
             "run",
             "unix_offset_nanos",
             "unixOffsetNanos",
+            "next_sequence",
+            "nextSequence",
         ];
 
         #[allow(clippy::enum_variant_names)]
@@ -2507,6 +2517,7 @@ impl<'de> serde::Deserialize<'de> for CurveHeader {
             ServerTimeNanos,
             Run,
             UnixOffsetNanos,
+            NextSequence,
         }
         impl<'de> serde::Deserialize<'de> for GeneratedField {
             fn deserialize<D>(deserializer: D) -> std::result::Result<GeneratedField, D::Error>
@@ -2537,6 +2548,7 @@ impl<'de> serde::Deserialize<'de> for CurveHeader {
                             "serverTimeNanos" | "server_time_nanos" => Ok(GeneratedField::ServerTimeNanos),
                             "run" => Ok(GeneratedField::Run),
                             "unixOffsetNanos" | "unix_offset_nanos" => Ok(GeneratedField::UnixOffsetNanos),
+                            "nextSequence" | "next_sequence" => Ok(GeneratedField::NextSequence),
                             _ => Err(serde::de::Error::unknown_field(value, FIELDS)),
                         }
                     }
@@ -2565,6 +2577,7 @@ impl<'de> serde::Deserialize<'de> for CurveHeader {
                 let mut server_time_nanos__ = None;
                 let mut run__ = None;
                 let mut unix_offset_nanos__ = None;
+                let mut next_sequence__ = None;
                 while let Some(k) = map_.next_key()? {
                     match k {
                         GeneratedField::Session => {
@@ -2631,6 +2644,14 @@ impl<'de> serde::Deserialize<'de> for CurveHeader {
                                 Some(map_.next_value::<::pbjson::private::NumberDeserialize<_>>()?.0)
                             ;
                         }
+                        GeneratedField::NextSequence => {
+                            if next_sequence__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("nextSequence"));
+                            }
+                            next_sequence__ = 
+                                Some(map_.next_value::<::pbjson::private::NumberDeserialize<_>>()?.0)
+                            ;
+                        }
                     }
                 }
                 Ok(CurveHeader {
@@ -2643,6 +2664,7 @@ impl<'de> serde::Deserialize<'de> for CurveHeader {
                     server_time_nanos: server_time_nanos__.unwrap_or_default(),
                     run: run__.unwrap_or_default(),
                     unix_offset_nanos: unix_offset_nanos__.unwrap_or_default(),
+                    next_sequence: next_sequence__.unwrap_or_default(),
                 })
             }
         }

@@ -51,6 +51,10 @@ pub struct Held {
 }
 
 impl Held {
+    fn is_empty(&self) -> bool {
+        self.last.is_some_and(|last| last < self.first)
+    }
+
     fn has(&self, sequence: u64) -> bool {
         self.first <= sequence && self.last.is_none_or(|last| sequence <= last)
     }
@@ -173,8 +177,9 @@ impl Replays {
         Ok(take.map(|it| self.replay(it, sequence, last_frame)))
     }
 
-    /// The end of a run that is over: a replay from sample `sequence` on, which may come after the last. Whoever was served
-    /// live may have had samples that a crash kept from the take; what the take says of the frames behind them is still news.
+    /// The end of a run that is over: a replay from sample `sequence` on, which may come after the last, for somebody who knows
+    /// of all frames through `last_frame`. Whoever was served live may have had samples that a crash kept from the take; what the
+    /// take says of the frames behind them is still news.
     ///
     /// # Errors
     ///
@@ -184,12 +189,13 @@ impl Replays {
         session: &SessionId,
         run: u64,
         sequence: u64,
+        last_frame: u64,
     ) -> Result<Option<Replay>, Status> {
         let mut held = self.held(session, run).await?;
         let is_before = |it: &Held| it.last.is_some_and(|last| last < sequence);
         let idx = held.iter().position(|it| it.has(sequence));
         let idx = idx.or_else(|| held.iter().rposition(is_before));
-        Ok(idx.map(|idx| self.replay(held.swap_remove(idx), sequence, 0)))
+        Ok(idx.map(|idx| self.replay(held.swap_remove(idx), sequence, last_frame)))
     }
 
     fn replay(&self, held: Held, sequence: u64, last_frame: u64) -> Replay {
@@ -231,7 +237,8 @@ impl Replays {
         sequence: u64,
     ) -> Result<Option<(u64, u64)>, Status> {
         let held = self.held(session, run).await?;
-        let later = held.iter().find(|it| it.first > sequence);
+        let mut samples = held.iter().filter(|it| !it.is_empty());
+        let later = samples.find(|it| it.first > sequence);
         Ok(later.map(|it| (it.first, it.first_frame)))
     }
 }

@@ -306,13 +306,18 @@ impl Takes {
         Ok((rows.collect(), next))
     }
 
-    /// What an export of this take reads. Nobody reads more of a take under way than is on stable storage.
+    /// What an export of this take reads. Nobody reads more of a take under way than is on stable storage, nor of one whose end
+    /// could not be written.
     pub(super) fn source(&self, row: &TakeRow) -> ExportSource {
         let under_way = self.recorder.under_way(&row.id);
+        let of_whole = match row.state {
+            TakeState::Degraded | TakeState::TruncatedDiskFull => row.content.n_bytes,
+            _ => u64::MAX,
+        };
         ExportSource {
             fs: Arc::clone(&self.fs),
             file: self.dir.join(file_name(&row.id)),
-            n_bytes: under_way.map_or(u64::MAX, |it| it.n_bytes),
+            n_bytes: under_way.map_or(of_whole, |it| it.n_bytes),
             take: wire::take::take(row),
             actor: None,
         }

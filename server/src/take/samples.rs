@@ -24,11 +24,11 @@ const ENTRY_BYTES: usize = size_of::<StoredEntry>();
 pub struct SampleSpan {
     /// The run.
     pub run: u64,
-    /// Sequence of the first sample.
+    /// Sequence of the first sample, or of the one that would have been.
     pub first: u64,
     /// Frame of the first sample.
     pub first_frame: u64,
-    /// Sequence of the last sample.
+    /// Sequence of the last sample; before `first` when there is none.
     pub last: u64,
 }
 
@@ -198,23 +198,31 @@ impl SampleReader {
         });
     }
 
-    /// What a take that is over holds of a run's samples; `None` when it holds none.
+    /// What a take that is over holds of a run's samples; `None` when not even its header is there.
     ///
     /// # Errors
     ///
     /// [`TakeFileError`] when the file cannot be read.
     pub fn span(fs: &dyn Fs, file: &Path) -> Result<Option<SampleSpan>, TakeFileError> {
         let mut places = Places::open(fs, file, u64::MAX)?;
-        let mut run = 0;
+        let mut header = None;
         let mut first = None;
         while let Some(records) = places.next()? {
-            run = run.max(run_of(&records));
+            header = header.or_else(|| header_of(&records));
             first = samples(&records).next();
             if first.is_some() {
                 break;
             }
         }
-        let Some(first) = first else { return Ok(None) };
+        let run = header.as_ref().map_or(0, |it| it.run);
+        let Some(first) = first else {
+            return Ok(header.map(|it| SampleSpan {
+                run,
+                first: it.next_sequence,
+                first_frame: it.next_frame,
+                last: it.next_sequence.saturating_sub(1),
+            }));
+        };
         let last = last_sample(&mut places)?.unwrap_or(first.sequence);
         Ok(Some(SampleSpan {
             run,
@@ -230,15 +238,14 @@ fn samples(records: &[TakeRecord]) -> impl DoubleEndedIterator<Item = Placed> {
     curves.filter_map(|it| Placed::decode(it.data.as_slice()).ok())
 }
 
-fn run_of(records: &[TakeRecord]) -> u64 {
+fn header_of(records: &[TakeRecord]) -> Option<v1::TakeHeader> {
     let mut events = records.iter().filter(|it| it.channel == Channel::Events);
-    let header = events.find_map(|it| match v1::TakeEvent::decode(it.data.as_slice()) {
+    events.find_map(|it| match v1::TakeEvent::decode(it.data.as_slice()) {
         Ok(v1::TakeEvent {
             event: Some(Event::Header(header)),
-        }) => Some(header.run),
+        }) => Some(header),
         _ => None,
-    });
-    header.unwrap_or(0)
+    })
 }
 
 /// Sequence of the last sample.

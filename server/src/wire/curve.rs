@@ -167,6 +167,8 @@ pub fn header(
         server_time_nanos,
         run: session.run(),
         unix_offset_nanos,
+        // The subscription's.
+        next_sequence: 0,
     }
 }
 

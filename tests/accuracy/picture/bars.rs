@@ -2,7 +2,6 @@
 
 use frontalis_analysis::face::muscle::Muscle;
 
-use super::Drawing;
 use crate::figure::error;
 
 const WIDTH: f64 = 900.0;
@@ -25,7 +24,7 @@ impl Chart<'_> {
     pub fn svg(&self) -> String {
         let height = TOP + self.muscles.len() as f64 * ROW_HEIGHT + 10.0;
         let title = format!("{}: mean |error| of plain (above) and default", self.title);
-        let mut drawing = Drawing::new(WIDTH, height, &title);
+        let mut drawing = super::drawing(WIDTH, height, &title);
         let largest = self
             .plain
             .iter()

@@ -33,7 +33,7 @@ impl Chart<'_> {
     pub fn svg(&self) -> String {
         let shown = self.liveliest();
         let height = TOP + shown.len() as f64 * ROW_HEIGHT + 10.0;
-        let mut drawing = Drawing::new(WIDTH, height, self.title);
+        let mut drawing = super::drawing(WIDTH, height, self.title);
         legend(&mut drawing, self.n_frames() as f64 / self.rate_hz);
         for (row, &muscle) in shown.iter().enumerate() {
             let base = TOP + (row + 1) as f64 * ROW_HEIGHT - 10.0;

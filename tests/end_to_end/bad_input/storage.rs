@@ -4,6 +4,7 @@ mod faults;
 
 use std::{
     fs,
+    ops::RangeInclusive,
     os::unix::process::CommandExt as _,
     path::Path,
     process::{Command, Stdio},
@@ -29,18 +30,18 @@ async fn list(server: &TestServer) -> Vec<Take> {
 
 /// Records frames from 1 on and stops the take.
 async fn record(server: &TestServer, n_frames: u64) -> Take {
-    let take = begin(server, n_frames).await;
+    let take = begin(server, 1..=n_frames).await;
     stop(server, &take.name).await.unwrap()
 }
 
-/// Records frames from 1 on, until they are on stable storage.
-async fn begin(server: &TestServer, n_frames: u64) -> Take {
+/// Records frames, until they are on stable storage.
+async fn begin(server: &TestServer, frames: RangeInclusive<u64>) -> Take {
     let performance = TestPerformance::reference();
     let take = start(server, SESSION, "12A").await.unwrap();
     let start = performance.start(SESSION, "stage");
     let mut publisher = Publisher::open(server, start).await.unwrap();
-    publisher.send(performance.frames(1..=n_frames)).await;
-    publisher.durable(n_frames).await.unwrap();
+    publisher.send(performance.frames(frames.clone())).await;
+    publisher.durable(*frames.end()).await.unwrap();
     take
 }
 
@@ -115,7 +116,7 @@ async fn h7_with_a_damaged_catalogue_the_takes_are_shown_and_nothing_is_changed(
     let created = server.create_session("stage", "actors/reference").await;
     created.unwrap();
     let closed = record(&server, 40).await;
-    let open = begin(&server, 41).await;
+    let open = begin(&server, 41..=81).await;
     let server = server
         .kill_and_restart_after(|folder| {
             remove_catalogue(folder);
@@ -196,7 +197,7 @@ const N_OPEN: usize = 100;
 #[tokio::test(flavor = "multi_thread", worker_threads = 2)]
 async fn h12_many_takes_are_recovered_behind_a_server_that_works() {
     let server = TestServer::with_session("stage").await;
-    let take = begin(&server, 30).await;
+    let take = begin(&server, 1..=30).await;
     let bytes = export(&server, &take.name).await;
     let server = server
         .restart_after(|folder| many_takes(folder, head_of(&bytes), N_TAKES, N_OPEN))

@@ -44,12 +44,6 @@ async fn both_doors_refuse_for_the_same_reason() {
             Some("settings.neutralFrames"),
         ),
         (
-            json!({ "settings": { "recordImages": true } }),
-            501,
-            "NOT_IMPLEMENTED",
-            Some("settings.recordImages"),
-        ),
-        (
             json!({ "updateMask": "colour" }),
             400,
             "FIELD_MASK",

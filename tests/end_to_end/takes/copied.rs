@@ -2,7 +2,7 @@
 
 use harness::{RecordedTake, TestPerformance, TestServer};
 
-use super::{SESSION, record, stop};
+use super::{record, stop};
 
 /// Copies that are made while frames come in.
 const N_COPIES: u64 = 12;

@@ -1,9 +1,9 @@
 //! A server that is killed loses nothing that it acknowledged as durable (CONTRACTS G1, the short form).
 
 use frontalis_proto::v1::TakeState;
-use harness::{KillProfile, Publisher, RecordedTake, TestPerformance, TestServer};
+use harness::{KillProfile, RecordedTake, TestPerformance, TestServer, take_in_order};
 
-use super::{SESSION, export, get, record};
+use super::{export, record};
 
 /// Kills of one run of the test; `make kill-test` does more.
 const N_KILLS: u64 = 5;
@@ -30,7 +30,7 @@ async fn a_killed_server_gives_back_every_durable_frame() {
         let durable_through = publisher.report().durable_through;
         server = server.kill_and_restart().await;
 
-        let found = get(&server, &take.name).await.unwrap();
+        let found = take_in_order(&server, &take.name).await;
         assert!(found.recovered, "{found:?}");
         assert_eq!(found.state(), TakeState::Closed);
         let recorded = RecordedTake::read(&export(&server, &take.name).await);
@@ -71,7 +71,7 @@ async fn a_take_that_a_crash_left_in_its_final_form_is_whole() {
     publisher.durable(60).await.unwrap();
     // A drained server closes its takes; their rows then say so, or, after a crash in between, still that they are recorded.
     let server = server.restart().await;
-    let found = get(&server, &take.name).await.unwrap();
+    let found = take_in_order(&server, &take.name).await;
     assert_eq!((found.state(), found.n_frames), (TakeState::Closed, 60));
     let recorded = RecordedTake::read(&export(&server, &take.name).await);
     assert_eq!(recorded.frames, performance.frames(1..=60));

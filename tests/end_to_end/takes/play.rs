@@ -3,7 +3,7 @@
 use frontalis_proto::v1::{SessionState, Timecode};
 use harness::{RecordedTake, TestPerformance, TestServer};
 
-use super::{SESSION, export, record, stop};
+use super::{export, record, start, stop};
 use crate::person::Person;
 
 const N_FRAMES: u64 = 90;
@@ -72,7 +72,7 @@ async fn a_take_that_is_played_is_the_same_frames_again() {
     // From a file, into the same session: numbered on.
     let file = server.data_dir().join("one.mcap").display().to_string();
     let url = server.url();
-    anna.does(&format!("--server {url} take export {id} {file}"))
+    anna.does(&format!("--server {url} take export {id} --out {file}"))
         .await;
     let play = format!("take play {file} --session again --speed 20");
     let played = recorded_while(&server, &anna, "again", &play).await;

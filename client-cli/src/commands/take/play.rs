@@ -6,15 +6,14 @@
 mod pacing;
 mod session;
 
-use std::{path::Path, process::ExitCode};
+use std::process::ExitCode;
 
 use anyhow::{Context as _, bail};
 use clap::Args;
 use frontalis_client::{
     capture_client::{CaptureClient, CaptureSettings},
     connection::Channel,
-    error::ClientError,
-    proto::{self, TakeHeader, TakeSource, take_event::Event},
+    proto::{self, TakeSource, take_event::Event},
     recorded_take::{RecordedMessage, RecordedTake},
 };
 use indicatif::ProgressBar;
@@ -22,6 +21,7 @@ use proto::take_service_client::TakeServiceClient;
 use tokio::time::{Instant, sleep_until};
 
 use self::{pacing::Pacing, session::PlaySession};
+use super::source;
 use crate::{
     commands::{
         Context, interrupt::Interrupt, names::default_publisher, names::take_name, numbers,
@@ -64,29 +64,9 @@ impl PlayArgs {
         &self.take
     }
 
-    fn is_file(&self) -> bool {
-        let path = Path::new(&self.take);
-        path.extension().is_some_and(|it| it == "mcap") || path.is_file()
-    }
-
-    async fn open(&self, channel: &Channel) -> anyhow::Result<RecordedTake> {
-        if self.is_file() {
-            let file = RecordedTake::open(Path::new(&self.take));
-            return file.with_context(|| format!("cannot open {}", self.take));
-        }
-        let request = proto::ExportTakeRequest {
-            name: take_name(&self.take),
-            format: proto::TakeFormat::Mcap.into(),
-        };
-        let mut client = TakeServiceClient::new(channel.clone());
-        let pieces = client.export_take(request).await;
-        let pieces = pieces.map_err(ClientError::from)?.into_inner();
-        Ok(RecordedTake::download(pieces))
-    }
-
     /// How many frames there are; none when nobody says.
     async fn n_frames(&self, channel: &Channel) -> Option<u64> {
-        if self.is_file() || self.repeat {
+        if source::is_file(&self.take) || self.repeat {
             return None;
         }
         let request = proto::GetTakeRequest {
@@ -102,8 +82,8 @@ impl PlayArgs {
 pub async fn run(context: &Context, args: PlayArgs) -> anyhow::Result<ExitCode> {
     let channel = context.connect().await?;
     let interrupt = Interrupt::listen()?;
-    let mut take = args.open(&channel).await?;
-    let header = header(&mut take).await?;
+    let mut take = source::open(&args.take, Some(&channel)).await?;
+    let header = source::header(&mut take).await?;
     let id = session::id(args.session.as_deref(), &header);
     let session = PlaySession::open(&channel, &id, &header).await?;
     let bar = match args.n_frames(&channel).await {
@@ -129,19 +109,6 @@ pub async fn run(context: &Context, args: PlayArgs) -> anyhow::Result<ExitCode> 
     }
     played?;
     told
-}
-
-/// The first message of every take.
-async fn header(take: &mut RecordedTake) -> anyhow::Result<TakeHeader> {
-    let Some(first) = take.next().await? else {
-        bail!("it is empty");
-    };
-    if let RecordedMessage::Event(event) = first
-        && let Event::Header(header) = *event
-    {
-        return Ok(header);
-    }
-    bail!("it does not begin as a take does: with a header");
 }
 
 /// Whether playing goes on.
@@ -195,7 +162,7 @@ impl Player {
             if flow == Flow::Stopped || !args.repeat {
                 return Ok(());
             }
-            take = args.open(&self.channel).await?;
+            take = source::open(&args.take, Some(&self.channel)).await?;
             self.round.added = None;
         }
     }
@@ -212,6 +179,7 @@ impl Player {
                     continue;
                 }
                 RecordedMessage::Frame(frame) => frame,
+                RecordedMessage::Sample(_) => continue,
             };
             let Some(source) = &source else {
                 bail!(

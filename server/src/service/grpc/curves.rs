@@ -124,7 +124,12 @@ impl CurvesGrpc {
             Begun::Live(subscription) => (subscription, None),
             Begun::Replay(subscription, replaying) => (subscription, Some(replaying)),
         };
-        header.run = replaying.as_ref().map_or(header.run, |it| it.run());
+        let (run, next_sequence) = match &replaying {
+            Some(replaying) => (replaying.run(), replaying.next_sequence()),
+            None => (header.run, subscription.next_sequence()),
+        };
+        header.run = run;
+        header.next_sequence = next_sequence;
         subscription.limit_entries(max_samples);
         let flow = Flow {
             reader: Reader::new(subscription),

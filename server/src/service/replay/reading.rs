@@ -80,6 +80,11 @@ impl Replay {
         }
     }
 
+    /// The take that is read.
+    pub fn take(&self) -> &TakeId {
+        &self.id
+    }
+
     /// The next sample that was not given yet.
     pub fn next_sequence(&self) -> u64 {
         self.next_sequence

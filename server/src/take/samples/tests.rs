@@ -203,3 +203,42 @@ fn no_more_is_read_than_was_said_to_be_on_stable_storage() {
     }
     assert!(n_entries > 0 && n_entries < entries.len());
 }
+
+#[test]
+fn a_take_without_samples_says_where_they_would_begin_and_which_frames_it_has() {
+    let fs = MemFs::default();
+    let mut out = fs.create(&file()).unwrap();
+    out.append(growing_head().unwrap()).unwrap();
+    let mut writer = Writer {
+        fs: &fs,
+        growth: Growth::new(3, 0),
+        written: Written::default(),
+        buffer: ChunkBuffer::default(),
+        next: [0; 3],
+    };
+    writer.event(Event::Header(v1::TakeHeader {
+        run: 3,
+        next_sequence: 40,
+        next_frame: 7,
+        ..v1::TakeHeader::default()
+    }));
+    for number in 7..=9 {
+        let frame = v1::MarkerFrame {
+            number,
+            ..v1::MarkerFrame::default()
+        };
+        writer.add(Channel::Markers, &frame.encode_to_vec());
+    }
+    out.append(&writer.buffer.take()).unwrap();
+    let expected = SampleSpan {
+        run: 3,
+        first: 40,
+        first_frame: 7,
+        last: 39,
+    };
+    assert_eq!(SampleReader::span(&fs, &file()).unwrap(), Some(expected));
+    let mut reader = SampleReader::open(&fs, &file(), None, 40, 6).unwrap();
+    assert_eq!(reader.next_piece(None).unwrap(), []);
+    let unsolved = reader.unsolved().unwrap();
+    assert_eq!((unsolved.first, unsolved.last), (7, 9));
+}

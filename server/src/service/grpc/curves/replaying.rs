@@ -66,7 +66,7 @@ pub(super) async fn begin(
         })
     };
     if run != hub.run() {
-        let found = replays.find_at_end(session.id(), run, wanted).await?;
+        let found = replays.find_at_end(session.id(), run, wanted, 0).await?;
         let Some(replay) = found else {
             return Err(Status::from(SubscribeError::from(RangeError::NewRun {
                 wanted: run,
@@ -197,6 +197,11 @@ impl Replaying {
         }))
     }
 
+    /// The next sample that is wanted.
+    pub(super) fn next_sequence(&self) -> u64 {
+        self.replay.next_sequence()
+    }
+
     /// The run that is replayed.
     pub(super) fn run(&self) -> u64 {
         self.run
@@ -302,6 +307,12 @@ impl Replaying {
                 || SessionError::Draining.into(),
                 |lost| ending::lagged(&lost),
             ));
+        }
+        // A take that a crash ended before its first sample still tells of frames.
+        let end = self.replays.find_at_end(id, run, next, last_frame).await?;
+        if let Some(end) = end.filter(|it| it.take() != self.replay.take()) {
+            self.replay = end;
+            return Ok(None);
         }
         match unsolved.filter(|gap| gap.last > last_frame) {
             Some(gap) => {
