@@ -24,7 +24,7 @@ const N_SEEDS: u64 = 40;
 const TICK: Duration = Duration::from_millis(10);
 
 /// No simulation takes longer, in simulated time.
-const LONGEST: Duration = Duration::from_secs(120);
+const LONGEST: Duration = Duration::from_mins(2);
 
 #[test]
 fn every_simulated_stage_keeps_the_contract() {

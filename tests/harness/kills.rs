@@ -138,15 +138,13 @@ async fn publish(mut publisher: Publisher, performance: TestPerformance, take: S
                 .await;
             sent += BATCH;
         }
-        match publisher.next().await {
-            Ok(Some(_)) => {}
-            Ok(None) | Err(_) => {
-                let durable_through = publisher.report().durable_through;
-                return Killed {
-                    take,
-                    durable_through,
-                };
-            }
+        if let Ok(Some(_)) = publisher.next().await {
+        } else {
+            let durable_through = publisher.report().durable_through;
+            return Killed {
+                take,
+                durable_through,
+            };
         }
     }
 }

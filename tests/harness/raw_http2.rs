@@ -12,7 +12,7 @@ use tokio::{
 pub const PREFACE: &[u8] = b"PRI * HTTP/2.0\r\n\r\nSM\r\n\r\n";
 
 /// No test waits longer for the end of a connection.
-const PATIENCE: Duration = Duration::from_secs(60);
+const PATIENCE: Duration = Duration::from_mins(1);
 
 /// What is read at once.
 const READ_BYTES: usize = 16 * 1024;

@@ -5,7 +5,6 @@ use std::{
     fs::{self, OpenOptions},
     io::Write as _,
     path::Path,
-    time::Duration,
 };
 
 use frontalis_proto::v1::{StartTakeRequest, TakeState};

@@ -123,7 +123,7 @@ fn resolve(dir: &Path, id: &TakeId) -> Duration {
             (Some(next), Advance::More { .. }) => resolve = next,
             (_, Advance::Over(resolved)) => {
                 assert!(resolved.figures.n_samples > 0);
-                return thread_cpu() - start;
+                return thread_cpu().checked_sub(start).unwrap();
             }
             (_, other) => panic!("{other:?}"),
         }

@@ -19,7 +19,7 @@ fn refusal(text: &str) -> String {
 #[test]
 fn a_token_opens_until_it_expires_or_is_revoked() {
     let mut file = TokenFile::default();
-    let until = NOW.after(Duration::from_secs(60));
+    let until = NOW.after(Duration::from_mins(1));
     let new = NewToken {
         expire_time: Some(until),
         ..publisher()

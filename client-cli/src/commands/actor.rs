@@ -249,7 +249,9 @@ fn say_receipt(context: &Context, receipt: &proto::ErasureReceipt) -> anyhow::Re
         say(serde_json::json!({ "deleted": name, "receipt": receipt }))?;
         return Ok(());
     }
-    let time = receipt.erase_time.map(|it| it.to_rfc3339());
+    let time = receipt
+        .erase_time
+        .map(frontalis_proto::Timestamp::to_rfc3339);
     say(format_args!(
         "erased {} at {}: {} revisions, {} sessions, {} takes, {} bytes; nothing of them is left in the server's data directory but these ids in its audit log",
         short_id(&receipt.actor),

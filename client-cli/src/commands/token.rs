@@ -328,7 +328,7 @@ mod tests {
         let folder = tempfile::tempdir().unwrap();
         let path = folder.path().join("tokens.toml");
         let expiring = NewToken {
-            expire_time: Some(NOW.after(std::time::Duration::from_secs(60))),
+            expire_time: Some(NOW.after(std::time::Duration::from_mins(1))),
             ..publisher("b")
         };
         let (token, mut record) = add(&path, expiring, NOW).await.unwrap();

@@ -55,10 +55,10 @@ struct Record {
     stale_after_nanos: Option<u64>,
     publisher_timeout_nanos: u64,
     /// Absent in records of before there were takes: off.
-    #[serde(default)]
-    record: bool,
-    #[serde(default)]
-    record_images: bool,
+    #[serde(default, rename = "record")]
+    is_recorded: bool,
+    #[serde(default, rename = "record_images")]
+    with_images: bool,
     /// Absent in records of before there were terms and bounds: the defaults.
     #[serde(default)]
     objective: ObjectiveRecord,
@@ -94,8 +94,8 @@ impl From<&StoredSettings> for Record {
             align_on_request: marker.align_on_request,
             stale_after_nanos: settings.stale_after.map(nanos),
             publisher_timeout_nanos: nanos(settings.publisher_timeout),
-            record: settings.record,
-            record_images: settings.record_images,
+            is_recorded: settings.record,
+            with_images: settings.record_images,
             objective: (&marker.objective).into(),
         }
     }
@@ -119,8 +119,8 @@ impl From<Record> for StoredSettings {
             },
             stale_after: record.stale_after_nanos.map(Duration::from_nanos),
             publisher_timeout: Duration::from_nanos(record.publisher_timeout_nanos),
-            record: record.record,
-            record_images: record.record_images,
+            record: record.is_recorded,
+            record_images: record.with_images,
         }
     }
 }

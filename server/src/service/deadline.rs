@@ -22,7 +22,7 @@ use super::grpc::status::refuse;
 const TIMEOUT: &str = "grpc-timeout";
 
 /// Longest deadline; a longer one is this one.
-pub const LONGEST_DEADLINE: Duration = Duration::from_secs(30 * 24 * 3_600);
+pub const LONGEST_DEADLINE: Duration = Duration::from_hours(720);
 
 /// A shorter deadline is over before the call was read.
 const SHORTEST_DEADLINE: Duration = Duration::from_millis(1);
@@ -133,8 +133,8 @@ mod tests {
         assert_eq!(read("20u"), Some(Duration::from_micros(20)));
         assert_eq!(read("300m"), Some(Duration::from_millis(300)));
         assert_eq!(read("4S"), Some(Duration::from_secs(4)));
-        assert_eq!(read("5M"), Some(Duration::from_secs(300)));
-        assert_eq!(read("6H"), Some(Duration::from_secs(6 * 3_600)));
+        assert_eq!(read("5M"), Some(Duration::from_mins(5)));
+        assert_eq!(read("6H"), Some(Duration::from_hours(6)));
         assert_eq!(read("99999999H"), Some(LONGEST_DEADLINE));
     }
 

@@ -23,7 +23,7 @@ pub const EVENT_CAPACITY: usize = 256;
 const ENDED_IN_MEMORY: usize = 64;
 
 /// Time between two collections.
-const COLLECT_EVERY: Duration = Duration::from_secs(600);
+const COLLECT_EVERY: Duration = Duration::from_mins(10);
 
 /// The one task that writes the sessions' events.
 pub struct Keeper {

@@ -33,12 +33,13 @@ pub struct Retention {
 impl Retention {
     /// A round an hour, until `drained`.
     pub async fn run(self, drained: CancellationToken) {
-        match self.takes {
-            Some(kept) => tracing::info!(
+        if let Some(kept) = self.takes {
+            tracing::info!(
                 days = kept.as_secs() / DAY.as_secs(),
                 "takes are erased when they are older"
-            ),
-            None => tracing::info!("takes are kept until somebody erases them"),
+            );
+        } else {
+            tracing::info!("takes are kept until somebody erases them");
         }
         let mut rounds = tokio::time::interval(ROUND_EVERY);
         loop {

@@ -103,10 +103,11 @@ impl Tape {
     /// The frames that follow come from this publisher.
     pub(super) fn source(&mut self, source: RecordedSource) {
         self.note(Recorded::Source(source.clone()));
-        let before = self.source.replace(source.clone());
-        if before.is_some_and(|it| it.shape != source.shape) {
+        let is_other = |it: &RecordedSource| it.shape != source.shape;
+        if self.source.as_ref().is_some_and(is_other) {
             self.pre_roll.clear();
         }
+        self.source = Some(source);
         // What was known is of another stream, and perhaps of another clock.
         self.clock = None;
     }

@@ -12,7 +12,7 @@ use tokio::time::Instant;
 const LEAST_FREE_BYTES: u64 = 1 << 30;
 
 /// As long as this what comes in now must find room.
-const RESERVE: Duration = Duration::from_secs(60);
+const RESERVE: Duration = Duration::from_mins(1);
 
 /// Time between two looks.
 pub const LOOK_EVERY: Duration = Duration::from_secs(5);

@@ -319,7 +319,7 @@ impl Resolve {
                 return Ok((None, Advance::Over(self.finish(now_nanos)?)));
             };
             match item {
-                Item::Frame(frame) => self.frame(*frame)?,
+                Item::Frame(frame) => self.frame(&frame)?,
                 Item::Event { time_nanos, event } => {
                     if let Some(revision) = self.event(time_nanos, *event)? {
                         return Ok((Some(self), Advance::NeedsActor { revision }));
@@ -332,7 +332,7 @@ impl Resolve {
         Ok((Some(self), Advance::More { frames_done }))
     }
 
-    fn frame(&mut self, recorded: RecordedFrame) -> Result<(), ResolveError> {
+    fn frame(&mut self, recorded: &RecordedFrame) -> Result<(), ResolveError> {
         let number = recorded.frame.number;
         self.frames_done += 1;
         self.new.at(recorded.time_nanos);

@@ -48,7 +48,7 @@ pub fn take(row: &TakeRow) -> v1::Take {
         resolved_from: row
             .resolved_from
             .as_ref()
-            .map_or_else(String::new, |it| it.resource()),
+            .map_or_else(String::new, super::super::name::TakeId::resource),
     }
 }
 

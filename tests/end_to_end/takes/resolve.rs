@@ -6,7 +6,6 @@ use frontalis_proto::v1::{
     Take, UpdateSessionRequest, take_event::Event,
 };
 use harness::{Problem, Publisher, RecordedTake, TestPerformance, TestServer};
-use prost::Message as _;
 use tonic::Status;
 
 use super::{SESSION, export, get, start, stop};
@@ -76,7 +75,10 @@ fn solved(take: &RecordedTake) -> Vec<CurveSample> {
 
 /// The frames as they were sent: hidden markers are no numbers, and equal to nothing.
 fn sent(take: &RecordedTake) -> Vec<Vec<u8>> {
-    take.frames.iter().map(|it| it.encode_to_vec()).collect()
+    take.frames
+        .iter()
+        .map(prost::Message::encode_to_vec)
+        .collect()
 }
 
 /// The gaps, those that go on joined.

@@ -13,7 +13,7 @@ use harness::{
 };
 use tonic::Code;
 
-use super::{SESSION, export, get, start};
+use super::{SESSION, export, start};
 
 /// Frames before the crash, and as many after it.
 const N_FRAMES: u64 = 150;

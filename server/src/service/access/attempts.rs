@@ -11,7 +11,7 @@ use tokio::time::Instant;
 /// Keys that are told apart; beyond them strangers share one bucket.
 const MAX_KEYS: usize = 4_096;
 
-const MINUTE: Duration = Duration::from_secs(60);
+const MINUTE: Duration = Duration::from_mins(1);
 
 /// Counts what each key did of late.
 #[derive(Debug)]

@@ -320,7 +320,7 @@ impl Publisher {
 
     /// The next response; an end without a status is `OK`.
     pub(super) async fn response(&mut self) -> Result<v1::PublishResponse, Status> {
-        let soon = Duration::from_secs(60);
+        let soon = Duration::from_mins(1);
         let response = timeout(soon, self.responses.next())
             .await
             .expect("a response");
@@ -411,7 +411,7 @@ impl Renderer {
     }
 
     pub(super) async fn response(&mut self) -> Result<v1::SubscribeResponse, Status> {
-        let soon = Duration::from_secs(60);
+        let soon = Duration::from_mins(1);
         let response = timeout(soon, self.responses.next())
             .await
             .expect("a response");

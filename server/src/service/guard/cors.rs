@@ -6,7 +6,7 @@ use axum::http::{HeaderName, Method, header};
 use tower_http::cors::{AllowOrigin, AllowPrivateNetwork, CorsLayer};
 
 /// How long a browser remembers what it may do.
-const REMEMBERED: Duration = Duration::from_secs(3_600);
+const REMEMBERED: Duration = Duration::from_hours(1);
 
 const METHODS: [Method; 6] = [
     Method::GET,

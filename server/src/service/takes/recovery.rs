@@ -259,7 +259,7 @@ impl Takes {
                 tracing::warn!(take = %id, n_frames = row.content.n_frames, "a take without a row has one again");
             }
             Ok(None) => {
-                tracing::warn!(take = %id, "the file of a take that had not begun was removed")
+                tracing::warn!(take = %id, "the file of a take that had not begun was removed");
             }
             Err(error) => {
                 let error = &*error;

@@ -147,7 +147,7 @@ impl Takes {
         let (fs, dir) = (Arc::clone(&self.fs), self.dir.clone());
         let begun = self.resolvers.run(move || opened.begin(fs, dir, target));
         let begun = begun.await.map_err(|it| status(&it))?;
-        let Some(resolved) = self.solve(begun, order, told).await? else {
+        let Some(resolved) = Box::pin(self.solve(begun, order, told)).await? else {
             return Ok(None);
         };
         let row = new_row(id, from, revision, &resolved);

@@ -97,7 +97,7 @@ fn h1_a_file_cut_at_any_byte_is_opened_with_every_whole_commit_and_its_length() 
 #[test]
 fn h3_a_tail_of_zeros_is_the_end() {
     let mut bytes = growing(&belonging(), 3);
-    bytes.extend([0; 70_000]);
+    bytes.extend(std::iter::repeat_n(0, 70_000));
     let Recovered::Whole(it) = recover_one(&with(&bytes)) else {
         panic!("not whole");
     };

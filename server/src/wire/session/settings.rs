@@ -20,7 +20,7 @@ pub use objective::check_objective;
 /// Range of `neutral_frames`.
 const NEUTRAL_FRAMES: std::ops::RangeInclusive<u32> = 1..=256;
 /// Shortest and longest duration of a setting.
-const DURATIONS: [Duration; 2] = [Duration::from_millis(10), Duration::from_secs(3_600)];
+const DURATIONS: [Duration; 2] = [Duration::from_millis(10), Duration::from_hours(1)];
 
 /// Every field of the message; a mask may name no other.
 const FIELDS: [&str; 16] = [

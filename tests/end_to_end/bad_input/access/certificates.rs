@@ -10,7 +10,7 @@ use tokio_rustls::client::TlsStream;
 
 use super::super::beside_a_control_session_of;
 
-const PATIENCE: Duration = Duration::from_secs(60);
+const PATIENCE: Duration = Duration::from_mins(1);
 
 const RULE: &str =
     "\n[[certificate]]\ncommon_name = \"renderer-1\"\nrole = \"renderer\"\nsessions = [\"*\"]\n";

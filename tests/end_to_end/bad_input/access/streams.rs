@@ -19,7 +19,7 @@ use tonic::{Code, Status, Streaming};
 use super::super::SUBJECT;
 
 /// No stream may outlive its caller for longer.
-const PATIENCE: Duration = Duration::from_secs(60);
+const PATIENCE: Duration = Duration::from_mins(1);
 
 /// One open stream, of which the first answer was heard.
 pub(super) struct Open {

@@ -210,7 +210,7 @@ mod tests {
     #[tokio::test(start_paused = true)]
     async fn between_lines_a_publisher_may_be_silent() {
         let slow = stream::unfold(0, |n| async move {
-            sleep(Duration::from_secs(60)).await;
+            sleep(Duration::from_mins(1)).await;
             (n < 3).then(|| (Chunk::Ok("{}\n".into()), n + 1))
         });
         let lines = Lines::new(Box::pin(slow), 1_024);
