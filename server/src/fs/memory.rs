@@ -134,13 +134,14 @@ impl MemFs {
         self.state().free_bytes = free_bytes;
     }
 
-    /// Counts a call, which may fail.
-    fn call(&self) -> io::Result<MutexGuard<'_, State>> {
+    /// Counts a call, which may fail; on a full disk only one that needs room.
+    fn call(&self, needs_room: bool) -> io::Result<MutexGuard<'_, State>> {
         let mut state = self.state();
         let call = state.n_calls;
         state.n_calls += 1;
         let hit = |it: &Fault| call == it.call || (it.lasts && call > it.call);
-        match state.fault.filter(hit) {
+        let hurts = |it: &Fault| needs_room || it.kind != io::ErrorKind::StorageFull;
+        match state.fault.filter(hit).filter(hurts) {
             Some(fault) => Err(fault.kind.into()),
             None => Ok(state),
         }
@@ -150,8 +151,8 @@ impl MemFs {
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
 
-    fn change(&self) -> io::Result<MutexGuard<'_, State>> {
-        let mut state = self.call()?;
+    fn change(&self, needs_room: bool) -> io::Result<MutexGuard<'_, State>> {
+        let mut state = self.call(needs_room)?;
         match &mut state.changes_left {
             Some(0) => return Err(io::Error::other("the storage was told to fail")),
             Some(left) => *left -= 1,
@@ -167,20 +168,20 @@ impl Fs for MemFs {
     }
 
     fn read(&self, file: &Path) -> io::Result<Vec<u8>> {
-        let state = self.call()?;
+        let state = self.call(false)?;
         let found = state.files.get(file).map(|it| it.content().bytes.clone());
         found.ok_or_else(|| io::ErrorKind::NotFound.into())
     }
 
     fn write_and_sync(&self, file: &Path, content: &[u8]) -> io::Result<()> {
-        self.change()?
+        self.change(true)?
             .files
             .insert(file.to_owned(), File::synced(content));
         Ok(())
     }
 
     fn create(&self, file: &Path) -> io::Result<Box<dyn AppendFile>> {
-        let mut state = self.change()?;
+        let mut state = self.change(true)?;
         if state.files.contains_key(file) {
             return Err(io::ErrorKind::AlreadyExists.into());
         }
@@ -193,7 +194,7 @@ impl Fs for MemFs {
     }
 
     fn open(&self, file: &Path) -> io::Result<Box<dyn ReadFile>> {
-        let state = self.call()?;
+        let state = self.call(false)?;
         let found = state.files.get(file).cloned();
         Ok(Box::new(Opened {
             fs: self.clone(),
@@ -202,18 +203,18 @@ impl Fs for MemFs {
     }
 
     fn free_bytes(&self, _dir: &Path) -> io::Result<u64> {
-        Ok(self.call()?.free_bytes.unwrap_or(u64::MAX))
+        Ok(self.call(false)?.free_bytes.unwrap_or(u64::MAX))
     }
 
     fn rename(&self, from: &Path, to: &Path) -> io::Result<()> {
-        let mut state = self.change()?;
+        let mut state = self.change(true)?;
         let content = state.files.remove(from).ok_or(io::ErrorKind::NotFound)?;
         state.files.insert(to.to_owned(), content);
         Ok(())
     }
 
     fn sync_dir(&self, dir: &Path) -> io::Result<()> {
-        let mut state = self.change()?;
+        let mut state = self.change(true)?;
         let State { files, durable, .. } = &mut *state;
         let is_inside = |it: &Path| it.parent() == Some(dir);
         durable.retain(|name, _| !is_inside(name));
@@ -223,12 +224,12 @@ impl Fs for MemFs {
     }
 
     fn remove(&self, file: &Path) -> io::Result<()> {
-        self.change()?.files.remove(file);
+        self.change(false)?.files.remove(file);
         Ok(())
     }
 
     fn list(&self, dir: &Path) -> io::Result<Vec<OsString>> {
-        let state = self.call()?;
+        let state = self.call(false)?;
         let inside = state.files.keys().filter(|it| it.parent() == Some(dir));
         Ok(inside
             .filter_map(|it| it.file_name().map(OsString::from))
@@ -245,7 +246,7 @@ struct Opened {
 
 impl ReadFile for Opened {
     fn read_at(&mut self, offset: u64, buffer: &mut [u8]) -> io::Result<usize> {
-        drop(self.fs.call()?);
+        drop(self.fs.call(false)?);
         let content = self.file.content();
         let offset = usize::try_from(offset).unwrap_or(usize::MAX);
         let rest = content.bytes.get(offset..).unwrap_or_default();
@@ -268,7 +269,7 @@ struct Growing {
 
 impl AppendFile for Growing {
     fn append(&mut self, bytes: &[u8]) -> io::Result<()> {
-        let changing = self.fs.change();
+        let changing = self.fs.change(true);
         let n_bytes = if changing.is_ok() {
             bytes.len()
         } else {
@@ -280,7 +281,7 @@ impl AppendFile for Growing {
     }
 
     fn sync(&mut self) -> io::Result<()> {
-        let changing = self.fs.change()?;
+        let changing = self.fs.change(true)?;
         if changing.ignores_flushes {
             return Ok(());
         }
