@@ -137,10 +137,6 @@ bench: ## CPU time of the solve, the stage and the alignment, one thread
 bench-load: ## 64 sessions at 120 Hz with a subscriber each, 30 s: losses and latency
 	cargo run --release --package frontalis-tests --bin load
 
-.PHONY: bench-takes
-bench-takes: ## A take of 10 min of 27 markers at 120 Hz solved again, plain and by default: processor time of one core
-	cargo run --release --package frontalis-tests --bin takes
-
 .PHONY: accuracy
 accuracy: scipy ## Errors beside those of other methods where the truth is known: writes docs/accuracy.md and its pictures
 	cargo run --release --package frontalis-tests --bin accuracy
@@ -183,7 +179,7 @@ RUNS ?= 200
 CYCLES ?= 100
 TAKES_SECONDS ?= 30
 RELIABILITY := cargo run --release --package frontalis-tests --bin reliability --
-.PHONY: kill-test drain-test bench-recovery bench-takes
+.PHONY: kill-test drain-test bench-recovery bench-takes bench-resolve
 kill-test: release-server ## A recording server killed RUNS (200) times: no acknowledged frame is lost
 	$(RELIABILITY) kill $(RUNS)
 
@@ -195,6 +191,10 @@ bench-recovery: release-server ## 100,000 takes, 10,000 of them open, and one of
 
 bench-takes: release-server ## 64 sessions recorded at 120 Hz: what is shed, how far stable storage is behind, bytes a frame
 	$(RELIABILITY) takes $(TAKES_SECONDS)
+
+RESOLVE_MINUTES ?= 10
+bench-resolve: ## A take of 10 min of 27 markers at 120 Hz solved again, plain and by default: processor time of one core
+	$(RELIABILITY) resolve $(RESOLVE_MINUTES)
 
 .PHONY: release-server
 release-server:

@@ -1,5 +1,5 @@
 //! Long runs whose figures stand in `docs/reliability.md`; each writes a section of its own:
-//! `reliability kill N`, `reliability drain N`, `reliability recovery`, `reliability takes SECONDS`.
+//! `reliability kill N`, `reliability drain N`, `reliability recovery`, `reliability takes SECONDS`, `reliability resolve MINUTES`.
 #![expect(
     clippy::unwrap_used,
     reason = "a run that cannot start has nothing to report"
@@ -8,7 +8,8 @@
 use std::{process::ExitCode, time::Duration};
 
 use harness::{
-    DrainProfile, KillProfile, RecordingProfile, RecoveryProfile, TestServer, write_section,
+    DrainProfile, KillProfile, RecordingProfile, RecoveryProfile, ResolveProfile, TestServer,
+    write_section,
 };
 
 /// Sessions that are recorded while the server is killed.
@@ -32,8 +33,9 @@ async fn main() -> ExitCode {
         ["drain", n_cycles] => drain(n_cycles.parse().unwrap()).await,
         ["recovery"] => recovery().await,
         ["takes", seconds] => takes(Duration::from_secs(seconds.parse().unwrap())).await,
+        ["resolve", minutes] => resolve(minutes.parse().unwrap()).await,
         _ => {
-            eprintln!("reliability kill N | drain N | recovery | takes SECONDS");
+            eprintln!("reliability kill N | drain N | recovery | takes SECONDS | resolve MINUTES");
             false
         }
     };
@@ -99,4 +101,19 @@ async fn takes(duration: Duration) -> bool {
     );
     write_section("Recording", &body);
     report.n_shed == 0 && report.n_missing == 0
+}
+
+async fn resolve(minutes: u64) -> bool {
+    let [plain, default] = [true, false].map(|plain| ResolveProfile { minutes, plain });
+    let reports = [plain.run().await, default.run().await];
+    for report in reports {
+        println!("{report}");
+    }
+    let body = format!(
+        "`make bench-resolve` solves a take of {minutes} min of 27 markers at 120 Hz again, from opening its file to the new one on the disk.\n\n\
+         - {}.\n- {}.\n",
+        reports[0], reports[1]
+    );
+    write_section("Solving again", &body);
+    true
 }

@@ -3781,7 +3781,7 @@ pub struct SubscribeStart {
     /// DELIVERY_EVERY_FRAME: from the oldest sample that is kept
     #[prost(bool, tag = "10")]
     pub from_oldest: bool,
-    /// fill observed_cm and reproduced_cm
+    /// fill observed_cm and reproduced_cm; samples that come from a take have none
     #[prost(bool, tag = "11")]
     pub with_markers: bool,
 }
@@ -4287,8 +4287,9 @@ pub mod curve_service_client {
     /// SUBSCRIBER_LAGGED and the exact range that it lost. Frames that never became samples appear as `gaps`.
     /// `end` is the last message of a session that ended, and only of that; a server that drains closes with UNAVAILABLE /
     /// DRAINING and a retry delay. A stream that closes without `end` was cut, and the client SHOULD subscribe again with its
-    /// `run` and `from_sequence` = last + 1; gaps just before that sample are repeated. A position in another run is answered
-    /// OUT_OF_RANGE / NEW_RUN, one that is no longer kept OUT_OF_RANGE with the first that is.
+    /// `run` and `from_sequence` = last + 1; gaps just before that sample are repeated. What the session no longer keeps comes from
+    /// its takes, and then the live samples. A position in another run, which its takes serve to its end, then ends with
+    /// OUT_OF_RANGE / NEW_RUN, as one does that no take has; one that is nowhere is answered OUT_OF_RANGE with the first that is kept.
     /// While nothing is sent, a response that carries only `state` comes every 500 ms.
     #[derive(Debug, Clone)]
     pub struct CurveServiceClient<T> {
@@ -4503,8 +4504,9 @@ pub mod curve_service_server {
     /// SUBSCRIBER_LAGGED and the exact range that it lost. Frames that never became samples appear as `gaps`.
     /// `end` is the last message of a session that ended, and only of that; a server that drains closes with UNAVAILABLE /
     /// DRAINING and a retry delay. A stream that closes without `end` was cut, and the client SHOULD subscribe again with its
-    /// `run` and `from_sequence` = last + 1; gaps just before that sample are repeated. A position in another run is answered
-    /// OUT_OF_RANGE / NEW_RUN, one that is no longer kept OUT_OF_RANGE with the first that is.
+    /// `run` and `from_sequence` = last + 1; gaps just before that sample are repeated. What the session no longer keeps comes from
+    /// its takes, and then the live samples. A position in another run, which its takes serve to its end, then ends with
+    /// OUT_OF_RANGE / NEW_RUN, as one does that no take has; one that is nowhere is answered OUT_OF_RANGE with the first that is kept.
     /// While nothing is sent, a response that carries only `state` comes every 500 ms.
     #[derive(Debug)]
     pub struct CurveServiceServer<T> {

@@ -4,37 +4,30 @@
 //! Every frame is checked against the epoch of the lease, so that a fenced publisher has no effect (D-29).
 //! Kept under one std mutex by the session; pure, times are handed in.
 
-use std::{
-    sync::{Arc, Weak},
-    time::Duration,
-};
+mod frames;
+mod lease;
 
+use std::{sync::Weak, time::Duration};
+
+pub(super) use self::frames::MAX_CONSECUTIVE_REJECTS;
+use self::lease::{Lease, Owner};
 use super::{
     capture_order::CaptureOrder,
-    clock_estimate::{ClockEstimate, ClockExchange},
-    command::{Command, Source},
+    clock_estimate::ClockEstimate,
+    command::Command,
     error::SessionError,
-    frame::{IncomingFrame, Rejection},
     mailbox::Mailbox,
-    order::{FrameOrder, Verdict},
-    passed::{Found, PassedFrames},
+    order::FrameOrder,
+    passed::PassedFrames,
     pre_roll::PreRoll,
-    publication::{Claim, Grant, Ingest, Offer, PublishEnd, Wait},
-    queue::{MAX_WAITING_COMMANDS, WaitingFrame, Work, WorkQueue},
-    rate::{Admission, RateLimit, RateMeter},
-    recording::{Recorded, RecordedSource, RecordingFeed},
-    settings::StreamShape,
+    publication::PublishEnd,
+    queue::{MAX_WAITING_COMMANDS, Work, WorkQueue},
+    rate::{RateLimit, RateMeter},
+    recording::{Recorded, RecordingFeed},
     status::SessionStatus,
     tape::Tape,
 };
-use crate::{
-    clock::{ServerClock, nanos},
-    hub::{BufferBudget, Gap, GapCause},
-    name::PublisherId,
-};
-
-/// Unusable frames in a row that end a publication (CONTRACTS D-10).
-pub(super) const MAX_CONSECUTIVE_REJECTS: u32 = 100;
+use crate::{clock::nanos, hub::BufferBudget};
 
 /// Why nothing more comes in.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -83,35 +76,6 @@ pub(super) struct IntakeLimits {
     pub(super) resend_span: Duration,
     pub(super) budget: BufferBudget,
 }
-
-#[derive(Debug)]
-struct Lease {
-    owner: Owner,
-    mailbox: Arc<Mailbox>,
-    expires_nanos: i64,
-    ingest: Ingest,
-    n_rejects_in_a_row: u32,
-    waits_for_space: bool,
-}
-
-/// A publisher, and whose it is.
-#[derive(Clone, Debug, PartialEq, Eq)]
-struct Owner {
-    publisher: PublisherId,
-    principal: Arc<str>,
-}
-
-impl Owner {
-    fn of(claim: &Claim) -> Self {
-        Self {
-            publisher: claim.publisher.clone(),
-            principal: Arc::clone(&claim.principal),
-        }
-    }
-}
-
-/// A session changes hands by takeover at most this often (BAD_INPUT I10).
-const TAKEOVER_EVERY: Duration = Duration::from_secs(1);
 
 /// A session's publisher, frame order and queue.
 #[derive(Debug)]
@@ -226,358 +190,6 @@ impl Intake {
         self.tape.note(recorded);
     }
 
-    /// Whether a publisher may start now: as [`Self::check_claim`] says, and whoever pushes another out in turn.
-    pub(super) fn admit(&mut self, claim: &Claim, now_nanos: i64) -> Result<(), SessionError> {
-        self.check_claim(claim, now_nanos)?;
-        if self.lease_of_another(claim, now_nanos).is_none() {
-            return Ok(());
-        }
-        let left_nanos = self.next_takeover_nanos.saturating_sub(now_nanos);
-        if left_nanos > 0 {
-            let retry_after = Duration::from_nanos(left_nanos.unsigned_abs());
-            return Err(SessionError::TakeoverRate { retry_after });
-        }
-        self.next_takeover_nanos = now_nanos.saturating_add(nanos(TAKEOVER_EVERY));
-        Ok(())
-    }
-
-    fn lease_of_another(&self, claim: &Claim, now_nanos: i64) -> Option<&Lease> {
-        let lease = self.lease.as_ref()?;
-        let is_in_force = now_nanos < lease.expires_nanos;
-        (is_in_force && lease.owner != Owner::of(claim)).then_some(lease)
-    }
-
-    /// Whether a publisher may start.
-    pub(super) fn check_claim(&self, claim: &Claim, now_nanos: i64) -> Result<(), SessionError> {
-        self.check_open()?;
-        let Some(lease) = self.lease_of_another(claim, now_nanos) else {
-            return Ok(());
-        };
-        if !claim.takeover {
-            let left_nanos = lease.expires_nanos - now_nanos;
-            return Err(SessionError::Owned {
-                owner: lease.owner.publisher.to_string(),
-                free_after: Duration::from_nanos(left_nanos.unsigned_abs()),
-            });
-        }
-        if lease.owner.principal != claim.principal && !claim.outranks {
-            return Err(SessionError::OwnedByAnother);
-        }
-        Ok(())
-    }
-
-    /// Starts a lease; an older one is fenced. The queue learns of the source, so that frames are read as it declared.
-    pub(super) fn grant(
-        &mut self,
-        grant: &Grant,
-        shape: StreamShape,
-        now_nanos: i64,
-    ) -> Result<Arc<Mailbox>, SessionError> {
-        self.check_claim(&grant.claim, now_nanos)?;
-        if grant.epoch <= self.newest_epoch {
-            return Err(SessionError::Fenced {
-                epoch: grant.epoch,
-                current: self.newest_epoch,
-            });
-        }
-        self.check_room_for_a_command()?;
-        self.fence(grant.epoch);
-        self.newest_epoch = grant.epoch;
-        let owner = Owner::of(&grant.claim);
-        let is_other = self.note_owner(&owner);
-        self.clock = ClockEstimate::default();
-        let mailbox = Arc::new(Mailbox::new(grant.epoch));
-        self.last_mailbox = Arc::downgrade(&mailbox);
-        self.lease = Some(Lease {
-            owner,
-            mailbox: Arc::clone(&mailbox),
-            expires_nanos: now_nanos.saturating_add(nanos(self.publisher_timeout)),
-            ingest: grant.ingest,
-            n_rejects_in_a_row: 0,
-            waits_for_space: false,
-        });
-        self.tape.source(RecordedSource {
-            publisher: grant.claim.publisher.clone(),
-            epoch: grant.epoch,
-            shape: shape.clone(),
-            rate_hz: grant.rate_hz,
-            is_continued: false,
-            is_other,
-        });
-        self.queue.push_command(Command::Source(Source {
-            shape,
-            rate_hz: grant.rate_hz,
-            mailbox: Arc::clone(&mailbox),
-        }));
-        Ok(mailbox)
-    }
-
-    fn fence(&mut self, current: u64) {
-        if let Some(old) = self.lease.take() {
-            old.mailbox.end(PublishEnd::Fenced {
-                epoch: old.mailbox.epoch(),
-                current,
-            });
-        }
-    }
-
-    /// Whether it is another one than before.
-    fn note_owner(&mut self, owner: &Owner) -> bool {
-        let is_other = self.last_owner.as_ref().is_some_and(|it| it != owner);
-        if is_other {
-            self.order.publisher_changed();
-            self.capture_order.another_clock();
-        }
-        self.last_owner = Some(owner.clone());
-        is_other
-    }
-
-    /// Judges a frame and takes it when it is new and there is room.
-    pub(super) fn offer(
-        &mut self,
-        mailbox: &Mailbox,
-        frame: IncomingFrame,
-        clock: &ServerClock,
-        now_nanos: i64,
-    ) -> Result<Offer, PublishEnd> {
-        self.renew(mailbox, now_nanos)?;
-        let number = frame.number;
-        match self.order.judge(number, frame.content_hash) {
-            Verdict::New => self.offer_new(frame, clock, now_nanos),
-            Verdict::Duplicate => Ok(self.duplicate()),
-            Verdict::Late if self.tape.is_recording() => match self.passed.find(number) {
-                Found::Unknown => Ok(Offer::Unsure(frame)),
-                Found::Never => Ok(self.late(&frame, now_nanos)),
-                Found::Late(hash) => self.again(mailbox, &frame, hash),
-            },
-            Verdict::Late => Ok(self.late(&frame, now_nanos)),
-            Verdict::Conflict => self.conflict(mailbox, number),
-            Verdict::Jump => {
-                let last = self.order.accepted_through();
-                let detail = format!("more than 2^32 beyond frame {last}");
-                self.refuse(mailbox, rejection(number, "FRAME_JUMP", detail))
-            }
-        }
-    }
-
-    /// Judges a frame again that was [`Offer::Unsure`]: the take has this content under its number, or none.
-    pub(super) fn offer_known(
-        &mut self,
-        mailbox: &Mailbox,
-        frame: &IncomingFrame,
-        in_take: Option<u64>,
-        now_nanos: i64,
-    ) -> Result<Offer, PublishEnd> {
-        self.renew(mailbox, now_nanos)?;
-        match in_take {
-            Some(hash) => self.again(mailbox, frame, hash),
-            None => Ok(self.late(frame, now_nanos)),
-        }
-    }
-
-    /// A frame whose number was taken with content of this hash.
-    fn again(
-        &mut self,
-        mailbox: &Mailbox,
-        frame: &IncomingFrame,
-        hash: u64,
-    ) -> Result<Offer, PublishEnd> {
-        if frame.content_hash == hash {
-            Ok(self.duplicate())
-        } else {
-            self.conflict(mailbox, frame.number)
-        }
-    }
-
-    fn duplicate(&mut self) -> Offer {
-        self.counts.duplicate += 1;
-        Offer::Taken
-    }
-
-    fn conflict(&mut self, mailbox: &Mailbox, number: u64) -> Result<Offer, PublishEnd> {
-        let detail = "this number was taken with other content".to_owned();
-        self.refuse(mailbox, rejection(number, "FRAME_CONFLICT", detail))
-    }
-
-    /// A late frame is no mistake of the publisher: it does not count towards the limit in a row.
-    fn late(&mut self, frame: &IncomingFrame, now_nanos: i64) -> Offer {
-        self.tape.frame(frame, now_nanos, true);
-        self.passed.came_late(frame.number, frame.content_hash);
-        self.counts.late += 1;
-        self.counts.rejected += 1;
-        let detail = format!("frame {} was already passed", self.order.accepted_through());
-        Offer::Rejected(rejection(frame.number, "LATE", detail))
-    }
-
-    fn offer_new(
-        &mut self,
-        frame: IncomingFrame,
-        clock: &ServerClock,
-        now_nanos: i64,
-    ) -> Result<Offer, PublishEnd> {
-        let cost_bytes = frame.cost_bytes();
-        let Some(lease) = &mut self.lease else {
-            return Err(self.lost());
-        };
-        if !self.tape.has_room() {
-            // What cannot be recorded is not taken, however live it is: an acknowledged frame is in the take.
-            lease.waits_for_space = true;
-            return Ok(Offer::Wait(frame, Wait::Space));
-        }
-        match lease.ingest {
-            Ingest::Lossless if !self.queue.has_room(cost_bytes) => {
-                lease.waits_for_space = true;
-                return Ok(Offer::Wait(frame, Wait::Space));
-            }
-            Ingest::Lossless => {}
-            Ingest::Live => match self.limit.admit(now_nanos) {
-                Admission::Taken => self.make_room(cost_bytes),
-                Admission::WaitUntil(until) => {
-                    return Ok(Offer::Wait(frame, Wait::Until(clock.instant_at(until))));
-                }
-                Admission::Refused => return Ok(Offer::Rejected(self.refuse_excess(&frame))),
-            },
-        }
-        self.take(frame, now_nanos);
-        Ok(Offer::Taken)
-    }
-
-    fn make_room(&mut self, cost_bytes: usize) {
-        while !self.queue.has_room(cost_bytes) && self.queue.shed_oldest() {
-            self.counts.shed += 1;
-        }
-    }
-
-    /// Too fast is not unusable: it does not count towards the limit in a row.
-    fn refuse_excess(&mut self, frame: &IncomingFrame) -> Rejection {
-        self.counts.rejected += 1;
-        self.order.reject(frame.number);
-        let rate_hz = self.limit.rate_hz();
-        let detail = format!("the session takes {rate_hz} frames a second");
-        rejection(frame.number, "RATE_LIMIT", detail)
-    }
-
-    fn take(&mut self, mut frame: IncomingFrame, now_nanos: i64) {
-        let gaps_before = self
-            .order
-            .accept(frame.number, frame.content_hash, now_nanos);
-        let skipped = gaps_before
-            .iter()
-            .filter(|it| it.cause != GapCause::Rejected);
-        let n_missing = skipped.map(Gap::n_frames);
-        self.counts.missing = n_missing.fold(self.counts.missing, u64::saturating_add);
-        self.counts.received += 1;
-        self.counts.partial_markers += frame.n_partial_markers as u64;
-        self.meter.count(now_nanos);
-        let clock = self.clock.report();
-        frame.tag.capture_time_server_nanos =
-            clock.map(|it| it.on_server_clock(frame.capture_time_nanos));
-        frame.tag.time_non_monotonic = self.capture_order.is_broken_by(frame.capture_time_nanos);
-        if let Some(lease) = &mut self.lease {
-            lease.n_rejects_in_a_row = 0;
-        }
-        self.tape.frame(&frame, now_nanos, false);
-        self.queue.push_frame(WaitingFrame {
-            frame,
-            gaps_before,
-            received_nanos: now_nanos,
-        });
-    }
-
-    /// Counts a frame that cannot be used; ends the publication after too many in a row.
-    pub(super) fn refuse(
-        &mut self,
-        mailbox: &Mailbox,
-        rejection: Rejection,
-    ) -> Result<Offer, PublishEnd> {
-        self.check_lease(mailbox)?;
-        self.counts.rejected += 1;
-        self.order.reject(rejection.number);
-        let Some(lease) = &mut self.lease else {
-            return Err(self.lost());
-        };
-        lease.n_rejects_in_a_row += 1;
-        if lease.n_rejects_in_a_row >= MAX_CONSECUTIVE_REJECTS {
-            mailbox.reject(rejection);
-            mailbox.end(PublishEnd::TooManyRejects {
-                n_rejects: MAX_CONSECUTIVE_REJECTS,
-            });
-            self.lease = None;
-            return Err(ended(mailbox));
-        }
-        Ok(Offer::Rejected(rejection))
-    }
-
-    /// Takes in an exchange with the publisher's clock.
-    pub(super) fn exchange(
-        &mut self,
-        mailbox: &Mailbox,
-        exchange: ClockExchange,
-    ) -> Result<(), PublishEnd> {
-        self.check_lease(mailbox)?;
-        if let Some(report) = self.clock.add(exchange) {
-            self.tape.clock(report);
-        }
-        Ok(())
-    }
-
-    /// Lets the lease live on.
-    pub(super) fn renew(&mut self, mailbox: &Mailbox, now_nanos: i64) -> Result<(), PublishEnd> {
-        self.check_lease(mailbox)?;
-        if let Some(lease) = &mut self.lease {
-            lease.expires_nanos = now_nanos.saturating_add(nanos(self.publisher_timeout));
-        }
-        Ok(())
-    }
-
-    fn check_lease(&self, mailbox: &Mailbox) -> Result<(), PublishEnd> {
-        #[cfg(test)]
-        if self.forgets_epochs {
-            return Ok(());
-        }
-        match &self.lease {
-            Some(lease) if lease.mailbox.epoch() == mailbox.epoch() => Ok(()),
-            _ => Err(mailbox.ended().unwrap_or_else(|| self.lost())),
-        }
-    }
-
-    /// A lease that is gone without a reason of its own was given to another, or the session closed.
-    fn lost(&self) -> PublishEnd {
-        let closed = self.closed.as_ref().map(Closed::publish_end);
-        closed.unwrap_or(PublishEnd::Fenced {
-            epoch: 0,
-            current: self.newest_epoch,
-        })
-    }
-
-    /// Gives the lease back at once. The mailbox is told when the publication's frames are done; `false`: no one will.
-    pub(super) fn release(&mut self, mailbox: &Arc<Mailbox>) -> bool {
-        if self.check_lease(mailbox).is_err() {
-            return false;
-        }
-        self.lease = None;
-        let told = self.check_room_for_a_command().is_ok();
-        if told {
-            let finish = Command::Finish(Arc::clone(mailbox));
-            self.queue.push_command(finish);
-        }
-        told
-    }
-
-    /// Ends the lease of a publication whose frames cannot be solved; those that wait are given up where they are solved.
-    pub(super) fn give_up(&mut self, mailbox: &Mailbox, end: PublishEnd) {
-        mailbox.end(end);
-        if self.check_lease(mailbox).is_ok() {
-            self.lease = None;
-        }
-    }
-
-    /// Refuses a frame that was taken before it could be seen to be unusable.
-    pub(super) fn reject_taken(&mut self, mailbox: &Mailbox, rejection: Rejection) {
-        self.counts.rejected += 1;
-        mailbox.reject(rejection);
-    }
-
     pub(super) fn command(&mut self, command: Command) -> Result<(), SessionError> {
         self.check_open()?;
         self.check_room_for_a_command()?;
@@ -665,18 +277,6 @@ impl Intake {
 
     pub(super) fn next_expected(&self) -> u64 {
         self.order.next_expected()
-    }
-}
-
-fn ended(mailbox: &Mailbox) -> PublishEnd {
-    mailbox.ended().unwrap_or(PublishEnd::Ended)
-}
-
-fn rejection(number: u64, reason: &'static str, detail: String) -> Rejection {
-    Rejection {
-        number,
-        reason,
-        detail,
     }
 }
 

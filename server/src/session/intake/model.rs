@@ -4,12 +4,24 @@
 //! there, and after every step the record is looked at. The same search is made of a door that does not look at epochs,
 //! and has to find it out.
 
-use std::collections::{BTreeSet, VecDeque};
+use std::{
+    collections::{BTreeSet, VecDeque},
+    sync::Arc,
+};
 
 use frontalis_analysis::space::LengthUnit;
 
 use super::*;
-use crate::{hub::SampleTag, session::settings::StreamShape};
+use crate::{
+    clock::ServerClock,
+    hub::SampleTag,
+    name::PublisherId,
+    session::{
+        frame::IncomingFrame,
+        publication::{Claim, Grant, Ingest},
+        settings::StreamShape,
+    },
+};
 
 /// Lives of a lease.
 const TIMEOUT: Duration = Duration::from_secs(10);

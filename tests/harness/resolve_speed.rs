@@ -1,64 +1,99 @@
-//! How fast a take is solved again: `takes [MINUTES]`, by default 10 min of 27 markers at 120 Hz, processor time of one thread
-//! from opening the file to the new one on the disk.
-#![expect(
-    clippy::unwrap_used,
-    reason = "a run that cannot start has nothing to report"
-)]
+//! How fast a take is solved again: processor time of one thread, from opening the file to the new one on the disk
+//! (CONTRACTS U-13).
 
-use std::{path::Path, sync::Arc, time::Duration};
+use std::{fmt, path::Path, sync::Arc, time::Duration};
 
 use frontalis_analysis::{face::actor::Actor, synthesis::reference_face};
-use frontalis_proto::v1::{
-    ExportTakeRequest, RegionMode, SessionSettings, StartTakeRequest, StopTakeRequest, Take,
-};
+use frontalis_proto::v1::{RegionMode, SessionSettings, StartTakeRequest, StopTakeRequest, Take};
 use frontalis_server::{
     fs::StdFs,
     name::TakeId,
     take::{Advance, ResolveTarget, TakeToResolve},
 };
-use harness::{Publisher, TestPerformance, TestServer};
 use rustix::time::{ClockId, clock_gettime};
 
-const MINUTES: u64 = 10;
+use crate::{Publisher, TestPerformance, TestServer, take_calls::export_mcap};
+
 const RATE_HZ: u64 = 120;
 const FRAMES_A_MESSAGE: u64 = 128;
 
-/// What the take is solved with.
-const RUNS: [&str; 2] = ["plain, split, fixed head", "default settings"];
+/// A take of 27 markers at 120 Hz.
+#[derive(Clone, Copy, Debug)]
+pub struct ResolveProfile {
+    /// How long it is.
+    pub minutes: u64,
+    /// With the paper's least squares, each region by itself, and a head that is held still; else with the default settings.
+    pub plain: bool,
+}
 
-#[tokio::main(flavor = "multi_thread", worker_threads = 2)]
-async fn main() {
-    let minutes = std::env::args()
-        .nth(1)
-        .map_or(MINUTES, |it| it.parse().unwrap());
-    let n_frames = minutes * 60 * RATE_HZ;
-    for name in RUNS {
-        let server = TestServer::start().await;
-        server.import_reference().await;
-        let take = record(&server, settings(name), n_frames).await;
-        let dir = tempfile::tempdir().unwrap();
-        let id = save(&server, &take, dir.path()).await;
-        server.stop().await;
-        let (took, n_bytes) = (resolve(dir.path(), &id), take.n_bytes);
-        let real = Duration::from_secs(minutes * 60);
-        println!(
-            "{name}: {n_frames} frames, {:.1} MB, solved again in {:.3} s of processor time: {:.0} times faster than they were captured",
-            n_bytes as f64 / 1e6,
-            took.as_secs_f64(),
-            real.as_secs_f64() / took.as_secs_f64(),
-        );
+/// What solving it again cost.
+#[derive(Clone, Copy, Debug)]
+pub struct ResolveReport {
+    profile: ResolveProfile,
+    n_frames: u64,
+    n_bytes: u64,
+    took: Duration,
+}
+
+impl ResolveReport {
+    /// So many times faster than it was captured.
+    pub fn times_real_time(&self) -> f64 {
+        (self.profile.minutes * 60) as f64 / self.took.as_secs_f64()
     }
 }
 
-fn settings(name: &str) -> SessionSettings {
-    if name == RUNS[1] {
-        return SessionSettings::default();
+impl fmt::Display for ResolveReport {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let settings = if self.profile.plain {
+            "plain, split, fixed head"
+        } else {
+            "default settings"
+        };
+        write!(
+            f,
+            "{settings}: {} frames, {:.1} MB, in {:.3} s of processor time of one core, {:.0} times faster than they were captured",
+            self.n_frames,
+            self.n_bytes as f64 / 1e6,
+            self.took.as_secs_f64(),
+            self.times_real_time(),
+        )
     }
-    SessionSettings {
-        plain: Some(true),
-        stabilize_head: Some(false),
-        region_mode: RegionMode::Split.into(),
-        ..SessionSettings::default()
+}
+
+impl ResolveProfile {
+    /// Records the take on a server of its own, and solves it again without one.
+    ///
+    /// # Panics
+    ///
+    /// When it cannot be recorded, or not be solved.
+    pub async fn run(self) -> ResolveReport {
+        let server = TestServer::start().await;
+        server.import_reference().await;
+        let n_frames = self.minutes * 60 * RATE_HZ;
+        let take = record(&server, self.settings(), n_frames).await;
+        let dir = tempfile::tempdir().unwrap();
+        let id = TakeId::from_resource(&take.name).unwrap();
+        let file = export_mcap(&server, &take.name).await;
+        std::fs::write(dir.path().join(format!("{id}.mcap")), file).unwrap();
+        server.stop().await;
+        ResolveReport {
+            profile: self,
+            n_frames,
+            n_bytes: take.n_bytes,
+            took: resolve(dir.path(), &id),
+        }
+    }
+
+    fn settings(self) -> SessionSettings {
+        if !self.plain {
+            return SessionSettings::default();
+        }
+        SessionSettings {
+            plain: Some(true),
+            stabilize_head: Some(false),
+            region_mode: RegionMode::Split.into(),
+            ..SessionSettings::default()
+        }
     }
 }
 
@@ -83,23 +118,6 @@ async fn record(server: &TestServer, settings: SessionSettings, n_frames: u64) -
     };
     let stopped = takes.stop_take(request).await.unwrap().into_inner().take;
     stopped.unwrap()
-}
-
-/// The take's file under its own name.
-async fn save(server: &TestServer, take: &Take, dir: &Path) -> TakeId {
-    let id = TakeId::from_resource(&take.name).unwrap();
-    let request = ExportTakeRequest {
-        name: take.name.clone(),
-        ..ExportTakeRequest::default()
-    };
-    let mut takes = server.takes().await;
-    let mut pieces = takes.export_take(request).await.unwrap().into_inner();
-    let mut file = Vec::new();
-    while let Some(piece) = pieces.message().await.unwrap() {
-        file.extend(piece.chunk);
-    }
-    std::fs::write(dir.join(format!("{id}.mcap")), file).unwrap();
-    id
 }
 
 /// Processor time of this thread, on which all of it runs.
