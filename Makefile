@@ -178,7 +178,7 @@ simulations: ## Publisher, server and subscriber under SEEDS (200) schedules of 
 RUNS ?= 200
 CYCLES ?= 100
 TAKES_SECONDS ?= 30
-RELIABILITY := cargo run --release --package frontalis-tests --bin reliability --
+RELIABILITY := target/release/reliability
 .PHONY: kill-test drain-test bench-recovery bench-takes bench-resolve
 kill-test: release-server ## A recording server killed RUNS (200) times: no acknowledged frame is lost
 	$(RELIABILITY) kill $(RUNS)
@@ -196,9 +196,10 @@ RESOLVE_MINUTES ?= 10
 bench-resolve: ## A take of 10 min of 27 markers at 120 Hz solved again, plain and by default: processor time of one core
 	$(RELIABILITY) resolve $(RESOLVE_MINUTES)
 
+# Together, so that both have the same dependencies.
 .PHONY: release-server
 release-server:
-	cargo build --release --bin frontalis-server
+	cargo build --release --package frontalis-server --package frontalis-tests --bin frontalis-server --bin reliability
 
 .PHONY: bench-doors
 bench-doors: ## Processor time of a delivered sample at each door beside plain TCP, and what clients that do not read cost

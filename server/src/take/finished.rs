@@ -30,6 +30,7 @@ impl FinishedFile {
         let options = LinearReaderOptions::default()
             .with_prevalidate_chunk_crcs(true)
             .with_validate_chunk_crcs(true)
+            .with_validate_data_section_crc(true)
             .with_record_length_limit(MAX_RECORD_BYTES);
         Self {
             file,

@@ -152,8 +152,10 @@ impl OpenTake {
         (pending.committed, pending.n_bytes, pending.condition)
     }
 
+    /// Whether there is something to commit, and a file that takes it.
     pub(super) fn has_pending(&self) -> bool {
-        !self.pending().chunk.is_empty()
+        let pending = self.pending();
+        pending.condition == Condition::Sound && !pending.chunk.is_empty()
     }
 
     /// Puts what waits on stable storage and tells the session. After a failure nothing is written any more.
