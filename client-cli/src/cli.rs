@@ -55,11 +55,11 @@ pub enum Command {
     /// Record sessions; list, label, save, play and erase takes
     #[command(subcommand)]
     Take(TakeCommand),
-    /// Publish a TRC file into a session
+    /// Publish a TRC or C3D file into a session
     Publish(PublishArgs),
     /// Follow a session's curves: live bars, CSV or JSON
     Watch(WatchArgs),
-    /// Solve a TRC file without a server, as a session would
+    /// Solve a TRC or C3D file without a server, as a session would
     Solve(SolveArgs),
     /// Publish a simulated five-camera capture in real time
     Simulate(SimulateArgs),

@@ -133,6 +133,7 @@ pub fn advice_on(reason: &str) -> Option<&'static str> {
             "some muscles move the markers alike: correct the basis, or accept it with --regularize"
         }
         "DRAINING" => "the server is shutting down; try again when it is back",
+        "ACTOR_HAS_TAKES" => "`frontalis actor delete --with-takes` erases them too",
         "ACTOR_IN_USE" => "end its sessions first: `frontalis session list` shows them",
         "SESSION_EXISTS" => "end it with `frontalis session end ID`, or choose another --id",
         "ACTOR" => "`frontalis actor list` shows what there is",

@@ -172,6 +172,7 @@ impl CaptureService for FakeServer {
                 next_expected: record.next_expected,
                 durable_through: 0,
                 run: record.run,
+                ..PublishStarted::default()
             };
             (capture, started)
         };

@@ -4,7 +4,7 @@
 //! the chunk it stands in.
 
 use std::{
-    collections::HashMap,
+    collections::{HashMap, VecDeque},
     fs::File,
     io::{self, Read as _},
     path::Path,
@@ -14,7 +14,8 @@ use frontalis_proto::v1::{CurveSample, MarkerFrame, TakeEvent, take_event::Event
 use futures::{Stream, StreamExt as _, stream, stream::BoxStream};
 use mcap::{
     McapError,
-    records::Record,
+    read::ChunkReader,
+    records::{Channel, ChunkHeader, Record, op},
     sans_io::linear_reader::{LinearReadEvent, LinearReader, LinearReaderOptions},
 };
 use prost::Message as _;
@@ -40,8 +41,8 @@ pub enum RecordedTakeError {
     #[error("the server does not give the take")]
     Server(#[from] ClientError),
     /// It is no MCAP, or damaged.
-    #[error("the take is no readable MCAP file")]
-    Format(#[from] McapError),
+    #[error("the take is no readable MCAP file, or damaged: {0}")]
+    Format(String),
     /// It is no take.
     #[error("a message of {topic} is none of a take")]
     Message {
@@ -68,6 +69,18 @@ pub struct RecordedTake {
     n_used: usize,
     reader: LinearReader,
     topics: HashMap<u16, String>,
+    /// Of the chunk that was read last, and whose checksum was right.
+    chunk: VecDeque<RecordedMessage>,
+    /// Behind it come an index and a summary, and no messages.
+    is_over: bool,
+}
+
+impl From<McapError> for RecordedTakeError {
+    fn from(error: McapError) -> Self {
+        // What follows the first line is for programmers.
+        let words = error.to_string();
+        Self::Format(words.lines().next().unwrap_or_default().to_owned())
+    }
 }
 
 impl RecordedTake {
@@ -99,7 +112,7 @@ impl RecordedTake {
     ) -> Self {
         let options = LinearReaderOptions::default()
             .with_skip_end_magic(true)
-            .with_validate_chunk_crcs(true)
+            .with_emit_chunks(true)
             .with_record_length_limit(MAX_RECORD_BYTES);
         Self {
             pieces: pieces.boxed(),
@@ -107,6 +120,8 @@ impl RecordedTake {
             n_used: 0,
             reader: LinearReader::new_with_options(options),
             topics: HashMap::new(),
+            chunk: VecDeque::new(),
+            is_over: false,
         }
     }
 
@@ -117,6 +132,12 @@ impl RecordedTake {
     /// When the take cannot be read on.
     pub async fn next(&mut self) -> Result<Option<RecordedMessage>, RecordedTakeError> {
         loop {
+            if let Some(message) = self.chunk.pop_front() {
+                return Ok(Some(message));
+            }
+            if self.is_over {
+                return Ok(None);
+            }
             let n_wanted = match self.reader.next_event() {
                 None | Some(Err(McapError::UnexpectedEof | McapError::UnexpectedEoc)) => {
                     return Ok(None);
@@ -124,9 +145,14 @@ impl RecordedTake {
                 Some(Err(error)) => return Err(error.into()),
                 Some(Ok(LinearReadEvent::ReadRequest(n_bytes))) => n_bytes,
                 Some(Ok(LinearReadEvent::Record { data, opcode })) => {
-                    let record = mcap::parse_record(opcode, data)?;
-                    if let Some(message) = take_record(record, &mut self.topics)? {
-                        return Ok(Some(message));
+                    self.is_over = opcode == op::DATA_END;
+                    match mcap::parse_record(opcode, data)? {
+                        Record::Channel(channel) => know_topic(channel, &mut self.topics),
+                        Record::Chunk { header, data } => {
+                            self.chunk = chunk_messages(header, &data, &mut self.topics)?;
+                        }
+                        // Messages stand in chunks only; what looks like one elsewhere is damage.
+                        _ => {}
                     }
                     continue;
                 }
@@ -155,21 +181,35 @@ impl RecordedTake {
     }
 }
 
-fn take_record(
-    record: Record<'_>,
-    topics: &mut HashMap<u16, String>,
-) -> Result<Option<RecordedMessage>, RecordedTakeError> {
-    match record {
-        Record::Channel(channel) if topics.len() < MAX_CHANNELS => {
-            topics.insert(channel.id, channel.topic);
-            Ok(None)
-        }
-        Record::Message { header, data } => match topics.get(&header.channel_id) {
-            Some(topic) => message(topic, &data),
-            None => Ok(None),
-        },
-        _ => Ok(None),
+fn know_topic(channel: Channel, topics: &mut HashMap<u16, String>) {
+    if topics.len() < MAX_CHANNELS {
+        topics.insert(channel.id, channel.topic);
     }
+}
+
+/// The messages of a chunk, once its checksum is right.
+fn chunk_messages(
+    header: ChunkHeader,
+    data: &[u8],
+    topics: &mut HashMap<u16, String>,
+) -> Result<VecDeque<RecordedMessage>, RecordedTakeError> {
+    // Before that many bytes are reserved for it.
+    if header.uncompressed_size > MAX_RECORD_BYTES as u64 {
+        return Err(McapError::ChunkTooLarge(header.uncompressed_size).into());
+    }
+    let mut messages = VecDeque::new();
+    for record in ChunkReader::new(header, data)? {
+        match record? {
+            Record::Channel(channel) => know_topic(channel, topics),
+            Record::Message { header, data } => {
+                if let Some(topic) = topics.get(&header.channel_id) {
+                    messages.extend(message(topic, &data)?);
+                }
+            }
+            _ => {}
+        }
+    }
+    Ok(messages)
 }
 
 fn message(topic: &str, data: &[u8]) -> Result<Option<RecordedMessage>, RecordedTakeError> {
@@ -247,5 +287,24 @@ mod tests {
         let pieces = stream::iter([Ok(b"not an MCAP file at all".to_vec())]);
         let error = RecordedTake::new(pieces).next().await.unwrap_err();
         assert!(matches!(error, RecordedTakeError::Format(_)), "{error:?}");
+    }
+
+    #[tokio::test]
+    async fn no_flipped_bit_gives_another_message_than_was_recorded() {
+        let bytes = file();
+        let whole = read(&bytes, 4_096).await;
+        // One bit of every byte: all of them take long.
+        for place in 0..bytes.len() {
+            let mut flipped = bytes.clone();
+            flipped[place] ^= 1 << (place % 8);
+            let pieces = stream::iter([Ok(flipped)]);
+            let mut take = RecordedTake::new(pieces);
+            let mut messages = Vec::new();
+            while let Ok(Some(message)) = take.next().await {
+                messages.push(message);
+            }
+            let n_messages = messages.len();
+            assert_eq!(messages, whole[..n_messages], "byte {place}");
+        }
     }
 }

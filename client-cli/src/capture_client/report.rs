@@ -35,6 +35,8 @@ pub struct PublishReport {
     pub new_runs: u64,
     /// Whether a take of the session was being recorded at the last answer.
     pub recording: bool,
+    /// The last frame that is in the take, when the recording of the session ended while frames were published.
+    pub recorded_through: Option<u64>,
     /// Every usable frame up to this number is with the server.
     pub accepted_through: u64,
     /// Every usable frame up to this number is on stable storage.

@@ -84,6 +84,10 @@ impl Shared {
             state.known_below = started.next_expected;
         } else if started.run != had_run {
             state.known_below = 0;
+            if started.recorded_run == had_run {
+                // They are in that run's take, whether or not it could still say so.
+                state.settle_through(started.recorded_through);
+            }
             state.report.new_runs += 1;
             state.report.accepted_through = 0;
             state.report.durable_through = 0;
@@ -121,6 +125,11 @@ impl Shared {
         }
         state.report.shed_frames = state.shed_before + response.shed_frames;
         let report = &mut state.report;
+        if report.recording && !response.recording {
+            report.recorded_through = Some(report.durable_through);
+        } else if response.recording {
+            report.recorded_through = None;
+        }
         report.recording = response.recording;
         report.accepted_through = report.accepted_through.max(response.accepted_through);
         report.durable_through = report.durable_through.max(response.durable_through);

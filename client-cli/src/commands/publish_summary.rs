@@ -76,6 +76,11 @@ fn lines(session: &str, report: &PublishReport, elapsed: Duration, what: &str) -
             report.lost
         ));
     }
+    if let Some(last) = report.recorded_through {
+        lines.push(format!(
+            "  the session's recording ended meanwhile: the take has frames through {last} (`frontalis take list` says why)"
+        ));
+    }
     if report.unacknowledged_frames > 0 {
         lines.push(format!(
             "  {} frames without an answer",

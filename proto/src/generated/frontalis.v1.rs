@@ -3132,6 +3132,12 @@ pub struct PublishStarted {
     pub durable_through: u64,
     #[prost(uint64, tag = "4")]
     pub run: u64,
+    /// An earlier run of the session of which a take is on stable storage, in a run without frames; 0: none. Whoever published
+    /// in that run has nothing to send again up to `recorded_through`, acknowledged or not.
+    #[prost(uint64, tag = "5")]
+    pub recorded_run: u64,
+    #[prost(uint64, tag = "6")]
+    pub recorded_through: u64,
 }
 impl ::prost::Name for PublishStarted {
     const NAME: &'static str = "PublishStarted";

@@ -9642,6 +9642,12 @@ impl serde::Serialize for PublishStarted {
         if self.run != 0 {
             len += 1;
         }
+        if self.recorded_run != 0 {
+            len += 1;
+        }
+        if self.recorded_through != 0 {
+            len += 1;
+        }
         let mut struct_ser = serializer.serialize_struct("frontalis.v1.PublishStarted", len)?;
         if self.epoch != 0 {
             #[allow(clippy::needless_borrow)]
@@ -9663,6 +9669,16 @@ impl serde::Serialize for PublishStarted {
             #[allow(clippy::needless_borrows_for_generic_args)]
             struct_ser.serialize_field("run", ToString::to_string(&self.run).as_str())?;
         }
+        if self.recorded_run != 0 {
+            #[allow(clippy::needless_borrow)]
+            #[allow(clippy::needless_borrows_for_generic_args)]
+            struct_ser.serialize_field("recordedRun", ToString::to_string(&self.recorded_run).as_str())?;
+        }
+        if self.recorded_through != 0 {
+            #[allow(clippy::needless_borrow)]
+            #[allow(clippy::needless_borrows_for_generic_args)]
+            struct_ser.serialize_field("recordedThrough", ToString::to_string(&self.recorded_through).as_str())?;
+        }
         struct_ser.end()
     }
 }
@@ -9679,6 +9695,10 @@ impl<'de> serde::Deserialize<'de> for PublishStarted {
             "durable_through",
             "durableThrough",
             "run",
+            "recorded_run",
+            "recordedRun",
+            "recorded_through",
+            "recordedThrough",
         ];
 
         #[allow(clippy::enum_variant_names)]
@@ -9687,6 +9707,8 @@ impl<'de> serde::Deserialize<'de> for PublishStarted {
             NextExpected,
             DurableThrough,
             Run,
+            RecordedRun,
+            RecordedThrough,
         }
         impl<'de> serde::Deserialize<'de> for GeneratedField {
             fn deserialize<D>(deserializer: D) -> std::result::Result<GeneratedField, D::Error>
@@ -9712,6 +9734,8 @@ impl<'de> serde::Deserialize<'de> for PublishStarted {
                             "nextExpected" | "next_expected" => Ok(GeneratedField::NextExpected),
                             "durableThrough" | "durable_through" => Ok(GeneratedField::DurableThrough),
                             "run" => Ok(GeneratedField::Run),
+                            "recordedRun" | "recorded_run" => Ok(GeneratedField::RecordedRun),
+                            "recordedThrough" | "recorded_through" => Ok(GeneratedField::RecordedThrough),
                             _ => Err(serde::de::Error::unknown_field(value, FIELDS)),
                         }
                     }
@@ -9735,6 +9759,8 @@ impl<'de> serde::Deserialize<'de> for PublishStarted {
                 let mut next_expected__ = None;
                 let mut durable_through__ = None;
                 let mut run__ = None;
+                let mut recorded_run__ = None;
+                let mut recorded_through__ = None;
                 while let Some(k) = map_.next_key()? {
                     match k {
                         GeneratedField::Epoch => {
@@ -9769,6 +9795,22 @@ impl<'de> serde::Deserialize<'de> for PublishStarted {
                                 Some(map_.next_value::<::pbjson::private::NumberDeserialize<_>>()?.0)
                             ;
                         }
+                        GeneratedField::RecordedRun => {
+                            if recorded_run__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("recordedRun"));
+                            }
+                            recorded_run__ = 
+                                Some(map_.next_value::<::pbjson::private::NumberDeserialize<_>>()?.0)
+                            ;
+                        }
+                        GeneratedField::RecordedThrough => {
+                            if recorded_through__.is_some() {
+                                return Err(serde::de::Error::duplicate_field("recordedThrough"));
+                            }
+                            recorded_through__ = 
+                                Some(map_.next_value::<::pbjson::private::NumberDeserialize<_>>()?.0)
+                            ;
+                        }
                     }
                 }
                 Ok(PublishStarted {
@@ -9776,6 +9818,8 @@ impl<'de> serde::Deserialize<'de> for PublishStarted {
                     next_expected: next_expected__.unwrap_or_default(),
                     durable_through: durable_through__.unwrap_or_default(),
                     run: run__.unwrap_or_default(),
+                    recorded_run: recorded_run__.unwrap_or_default(),
+                    recorded_through: recorded_through__.unwrap_or_default(),
                 })
             }
         }

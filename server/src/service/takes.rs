@@ -1,6 +1,7 @@
 //! Takes as every door sees them: what is being recorded joined with what the catalogue keeps.
 
 mod erasing;
+mod previous;
 mod recovery;
 mod resolve;
 
@@ -11,8 +12,8 @@ use sha2::{Digest as _, Sha256};
 use tokio::sync::{Semaphore, watch};
 use tonic::Status;
 
-pub use self::recovery::LeftOver;
 use self::recovery::RecoveryProgress;
+pub use self::{previous::RecordedRun, recovery::LeftOver};
 use super::{grpc::status::refuse, readiness::disk_low, replay::Replays};
 use crate::{
     catalogue::{CatalogueError, Store, TakeContent, TakeFilter, TakeLabels, TakeRow, TakeState},
@@ -178,6 +179,7 @@ impl Takes {
             return Ok(());
         }
         let new = NewTake {
+            labels: self.labels_as_before(handle).await?,
             with_images: settings.record_images,
             ..NewTake::default()
         };

@@ -1,9 +1,10 @@
 //! Reading a take whose file has its final form.
 
-use std::path::Path;
+use std::{collections::VecDeque, path::Path};
 
 use mcap::{
-    records::Record,
+    read::ChunkReader,
+    records::{ChunkHeader, Record, op},
     sans_io::linear_reader::{LinearReadEvent, LinearReader, LinearReaderOptions},
 };
 
@@ -17,25 +18,27 @@ use crate::fs::{Fs, ReadFile};
 /// Longest record that is read; chunks of ours are far shorter.
 const MAX_RECORD_BYTES: usize = 64 << 20;
 
-/// The messages of a file of the final form, in order; every checksum is looked at.
+/// The messages of a file of the final form, in order; every checksum is looked at, that of a chunk before the first of its
+/// messages is given.
 pub(super) struct FinishedFile {
     file: Box<dyn ReadFile>,
     offset: u64,
     reader: LinearReader,
+    chunk: VecDeque<TakeRecord>,
 }
 
 impl FinishedFile {
     /// Starts at the beginning of `file`.
     pub(super) fn start(file: Box<dyn ReadFile>) -> Self {
         let options = LinearReaderOptions::default()
-            .with_prevalidate_chunk_crcs(true)
-            .with_validate_chunk_crcs(true)
+            .with_emit_chunks(true)
             .with_validate_data_section_crc(true)
             .with_record_length_limit(MAX_RECORD_BYTES);
         Self {
             file,
             offset: 0,
             reader: LinearReader::new_with_options(options),
+            chunk: VecDeque::new(),
         }
     }
 
@@ -45,7 +48,13 @@ impl FinishedFile {
     ///
     /// [`TakeFileError`] when the file has another form, or is damaged.
     pub(super) fn next(&mut self) -> Result<Option<TakeRecord>, TakeFileError> {
-        while let Some(event) = self.reader.next_event() {
+        loop {
+            if let Some(record) = self.chunk.pop_front() {
+                return Ok(Some(record));
+            }
+            let Some(event) = self.reader.next_event() else {
+                return Ok(None);
+            };
             match event? {
                 LinearReadEvent::ReadRequest(n_bytes) => {
                     let place = self.reader.insert(n_bytes);
@@ -53,22 +62,41 @@ impl FinishedFile {
                     self.offset += n_read as u64;
                     self.reader.notify_read(n_read);
                 }
-                LinearReadEvent::Record { data, opcode } => {
-                    if let Record::Message { header, data } = mcap::parse_record(opcode, data)?
-                        && let Some(channel) = Channel::of(header.channel_id)
-                    {
-                        return Ok(Some(TakeRecord {
-                            channel,
-                            sequence: header.sequence,
-                            time_nanos: header.log_time,
-                            data: data.into_owned(),
-                        }));
+                // Messages stand in chunks only; what looks like one elsewhere is damage.
+                LinearReadEvent::Record { data, opcode } if opcode == op::CHUNK => {
+                    if let Record::Chunk { header, data } = mcap::parse_record(opcode, data)? {
+                        self.chunk = chunk_messages(header, &data)?.into();
                     }
                 }
+                LinearReadEvent::Record { .. } => {}
             }
         }
-        Ok(None)
     }
+}
+
+/// The messages of a chunk, once its checksum is right.
+pub(super) fn chunk_messages(
+    header: ChunkHeader,
+    data: &[u8],
+) -> Result<Vec<TakeRecord>, TakeFileError> {
+    // Before that many bytes are reserved for it.
+    if header.uncompressed_size > MAX_RECORD_BYTES as u64 {
+        return Err(mcap::McapError::ChunkTooLarge(header.uncompressed_size).into());
+    }
+    let mut messages = Vec::new();
+    for record in ChunkReader::new(header, data)? {
+        if let Record::Message { header, data } = record?
+            && let Some(channel) = Channel::of(header.channel_id)
+        {
+            messages.push(TakeRecord {
+                channel,
+                sequence: header.sequence,
+                time_nanos: header.log_time,
+                data: data.into_owned(),
+            });
+        }
+    }
+    Ok(messages)
 }
 
 /// What a file of the final form holds.

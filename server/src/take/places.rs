@@ -2,13 +2,10 @@
 
 use std::{io, path::Path};
 
-use mcap::{
-    read::ChunkReader,
-    records::{Record, op},
-};
+use mcap::records::{Record, op};
 
 use super::{
-    channel::Channel,
+    finished::chunk_messages,
     read::TakeRecord,
     rewrite::TakeFileError,
     scan::{self, Piece, Scan, ScanError},
@@ -141,20 +138,7 @@ impl FinishedPlaces {
         let Record::Chunk { header, data } = mcap::parse_record(op::CHUNK, &body)? else {
             return Ok(Vec::new());
         };
-        let mut messages = Vec::new();
-        for record in ChunkReader::new(header, &data)? {
-            if let Record::Message { header, data } = record?
-                && let Some(channel) = Channel::of(header.channel_id)
-            {
-                messages.push(TakeRecord {
-                    channel,
-                    sequence: header.sequence,
-                    time_nanos: header.log_time,
-                    data: data.into_owned(),
-                });
-            }
-        }
-        Ok(messages)
+        chunk_messages(header, &data)
     }
 }
 

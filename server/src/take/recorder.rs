@@ -38,7 +38,7 @@ use crate::{
 
 /// What waits is committed so long after the first of it (CONTRACTS U-2 asks for at most 20 ms). Shorter would be no sooner: each
 /// flush of a file costs processor time, and at 64 sessions that is what runs out first.
-const COMMIT_AFTER: Duration = Duration::from_millis(16);
+const COMMIT_AFTER: Duration = Duration::from_millis(12);
 
 /// Files that are flushed at once.
 const FLUSHES_AT_ONCE: usize = 16;

@@ -144,7 +144,8 @@ pub fn relabeled(
 }
 
 fn text(field: &'static str, sent: &str, limit: usize) -> Result<String, FieldError> {
-    let is_bad = |it: char| it.is_control() && it != '\n';
+    // Notes may have several lines.
+    let is_bad = |it: char| it.is_control() && (it != '\n' || limit == MAX_LABEL);
     if sent.chars().count() > limit || sent.chars().any(is_bad) {
         let detail = format!("at most {limit} code points, and no control characters");
         return Err(FieldError::unusable(field, "NAME", detail));

@@ -7,6 +7,7 @@ use frontalis_client::{
     connection::lazy_channel,
     curve_client::{CurveClient, CurveEvent, CurveSettings, StartAt, Wanted},
 };
+use frontalis_proto::v1::{ListTakesRequest, SessionSettings};
 use harness::{
     Heard, RecordedTake, Subscriber, TestPerformance, TestServer, assert_eventually,
     assert_refused, every_frame, take_in_order,
@@ -110,6 +111,49 @@ async fn publisher_and_subscriber_go_on_over_a_crash_without_a_hole_or_a_double(
         told.runs[1].len(),
         published.report.resent_frames,
     );
+}
+
+/// Every frame is in one of the takes, once, and both have the slate that was given.
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn a_session_that_records_itself_goes_on_over_a_crash_and_no_frame_is_in_both_takes() {
+    let server = TestServer::start_program(|_| {}).await;
+    server.import_reference().await;
+    let settings = SessionSettings {
+        record: Some(true),
+        ..SessionSettings::default()
+    };
+    let created = server.create_session_with("stage", "actors/reference", settings);
+    created.await.unwrap();
+    let first = start(&server, SESSION, "12A").await.unwrap();
+    let performance = TestPerformance::reference();
+    let channel = lazy_channel(&server.url()).unwrap();
+    let settings = performance.capture_settings(SESSION, "camera-1");
+    let publisher = CaptureClient::start(channel, settings).await.unwrap();
+    for number in 1..=N_FRAMES {
+        publisher.send(performance.frame(number)).await.unwrap();
+    }
+    assert_eventually!(publisher.report().durable_through > N_FRAMES / 2);
+    let server = server.kill_and_restart().await;
+    for number in N_FRAMES + 1..=2 * N_FRAMES {
+        publisher.send(performance.frame(number)).await.unwrap();
+    }
+    let published = publisher.finish().await;
+    assert!(published.failure.is_none(), "{:?}", published.failure);
+    assert_eq!(published.report.unacknowledged_frames, 0);
+
+    let mut client = server.takes().await;
+    let listed = client.list_takes(ListTakesRequest::default()).await;
+    let takes = listed.unwrap().into_inner().takes;
+    assert_eq!(takes.len(), 2, "{takes:?}");
+    let mut numbers = Vec::new();
+    for take in &takes {
+        assert_eq!(take.slate, "12A");
+        let recorded = RecordedTake::read(&export(&server, &take.name).await);
+        numbers.extend(recorded.frame_numbers());
+    }
+    assert!(takes.iter().any(|it| it.name == first.name));
+    numbers.sort_unstable();
+    assert_eq!(numbers, (1..=2 * N_FRAMES).collect::<Vec<_>>());
 }
 
 /// The wire's own form: the rest of the run that crashed, then where the next begins.

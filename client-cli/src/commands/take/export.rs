@@ -98,6 +98,9 @@ pub async fn run(context: &Context, client: &mut Client, args: &ExportArgs) -> a
 }
 
 fn check_free(file: &Path, force: bool) -> anyhow::Result<()> {
+    if file.exists() && !file.is_file() {
+        bail!("{} is no file that could be replaced", file.display());
+    }
     if !force && file.exists() {
         bail!("{} is there already; --force replaces it", file.display());
     }

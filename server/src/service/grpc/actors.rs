@@ -15,7 +15,7 @@ use tonic::{Code, Request, Response, Status, Streaming};
 
 use super::{refusal, status::refuse};
 use crate::{
-    catalogue::Store,
+    catalogue::{Store, TakeFilter},
     clock::ServerClock,
     executor::Workers,
     name::ActorId,
@@ -200,8 +200,7 @@ impl ActorService for ActorsGrpc {
         let deleted = if request.with_takes {
             self.erasure.actor(&id).await.map(Some)
         } else {
-            let deleted = self.store.delete_actor(&id).await;
-            deleted.map(|()| None).map_err(Status::from)
+            self.delete_without_takes(&id).await.map(|()| None)
         };
         let receipt = self
             .audit
@@ -229,6 +228,26 @@ impl ActorService for ActorsGrpc {
     ) -> Result<Response<Self::TrainRegionsStream>, Status> {
         Caller::of(request.extensions()).may(Action::MakeActors)?;
         Err(not_built("TrainRegions"))
+    }
+}
+
+impl ActorsGrpc {
+    /// Takes of nobody could not be exported in full nor solved again.
+    async fn delete_without_takes(&self, id: &ActorId) -> Result<(), Status> {
+        let filter = TakeFilter {
+            actor: Some(id.clone()),
+            ..TakeFilter::default()
+        };
+        let takes = self.store.takes(filter, String::new(), 1).await?;
+        if let Some(take) = takes.first() {
+            let message = format!(
+                "{} has takes, {} among them: they are erased with their actor (`with_takes`), or first",
+                id.resource(),
+                take.id.resource()
+            );
+            return Err(refuse(Code::FailedPrecondition, "ACTOR_HAS_TAKES", message));
+        }
+        Ok(self.store.delete_actor(id).await?)
     }
 }
 

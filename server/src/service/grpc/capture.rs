@@ -22,7 +22,7 @@ use crate::{
         audit::Audit,
         peer::Peer,
         sessions::in_process,
-        takes::Takes,
+        takes::{RecordedRun, Takes},
     },
     session::{
         Claim, Grant, Granted, IncomingFrame, Offer, Publication, PublishEnd, SessionRegistry, Wait,
@@ -113,7 +113,7 @@ impl CaptureGrpc {
         sent: v1::PublishStart,
         action: Action,
         peer: &Peer,
-    ) -> Result<Publication, Status> {
+    ) -> Result<(Publication, Option<RecordedRun>), Status> {
         if sent.image.is_some() {
             return Err(not_implemented());
         }
@@ -135,6 +135,7 @@ impl CaptureGrpc {
         } else {
             claimed?;
         }
+        let recorded = self.takes.recorded_before(&session).await?;
         self.takes.start_with_first_frame(&session).await?;
         let epoch = self.store.next_epoch(&start.session).await?;
         let (publisher, takeover) = (start.publisher, start.takeover);
@@ -148,7 +149,7 @@ impl CaptureGrpc {
         })?;
         let n_markers = publication.granted().shape.marker_names.len();
         tracing::info!(session = %session.id(), %publisher, door = peer.door.name(), takeover, epoch, n_markers, "publisher granted");
-        Ok(publication)
+        Ok((publication, recorded))
     }
 }
 
@@ -223,7 +224,7 @@ where
         let action = CaptureGrpc::action(caller, takes_over(&first))?;
         let request = first?;
         let missing = || protocol_order("the first message must be start");
-        let publication = self
+        let (publication, recorded) = self
             .service
             .open(request.start.ok_or_else(missing)?, action, &self.peer)
             .await?;
@@ -231,7 +232,7 @@ where
         flow.take_frames(request.frames)?;
         let granted = flow.publication.granted().clone();
         let mut response = flow.response();
-        response.started = Some(started(&granted, response.durable_through));
+        response.started = Some(started(&granted, response.durable_through, recorded));
         self.phase = Phase::Flowing(Box::new(flow));
         Ok(response)
     }
@@ -247,12 +248,18 @@ fn takes_over(first: &Result<v1::PublishMarkersRequest, Status>) -> bool {
     }
 }
 
-fn started(granted: &Granted, durable_through: u64) -> v1::PublishStarted {
+fn started(
+    granted: &Granted,
+    durable_through: u64,
+    recorded: Option<RecordedRun>,
+) -> v1::PublishStarted {
     v1::PublishStarted {
         epoch: granted.epoch,
         next_expected: granted.next_expected,
         durable_through,
         run: granted.run,
+        recorded_run: recorded.map_or(0, |it| it.run),
+        recorded_through: recorded.map_or(0, |it| it.through),
     }
 }
 

@@ -127,7 +127,8 @@ impl Takes {
     ///
     /// # Errors
     ///
-    /// `TAKE_RECOVERING` while its file is being brought into order, `TAKE_FORMAT` when a newer server wrote it.
+    /// `TAKE_RECOVERING` while its file is being brought into order, `TAKE_FORMAT` when a newer server wrote it,
+    /// `TAKE_UNREADABLE` when it is of another take.
     pub async fn check_readable(&self, row: &TakeRow) -> Result<(), Status> {
         if row.state == TakeState::Recovering {
             let n_left = self.recovery.n_left();
@@ -137,11 +138,19 @@ impl Takes {
             );
             return Err(recovering(message, n_left));
         }
-        if row.state != TakeState::Quarantined {
-            return Ok(());
-        }
         let (fs, file) = (Arc::clone(&self.fs), self.dir.join(file_name(&row.id)));
+        let is_quarantined = row.state == TakeState::Quarantined;
         match self.recorder.run(move || header(&*fs, &file)).await {
+            // Whoever put it there, it is nobody's business under this name.
+            Ok(Some(other)) if !is_quarantined && other.take != row.id.resource() => Err(refuse(
+                Code::DataLoss,
+                "TAKE_UNREADABLE",
+                format!(
+                    "the file of {} is of another take, {}; it is left as it is",
+                    row.id.resource(),
+                    other.take
+                ),
+            )),
             Err(TakeFileError::Scan(error @ ScanError::NewerFormat { .. })) => Err(refuse(
                 Code::FailedPrecondition,
                 "TAKE_FORMAT",

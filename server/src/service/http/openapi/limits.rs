@@ -39,7 +39,9 @@ const MASK: &str = concat!(
     r"|publisherTimeout|record|regionMode|plain|alignOnRequest|recordImages|symmetry|bounds|exclusivePairs)(,|$))*$"
 );
 
-/// Slate, gesture and notes: no control characters but the end of a line.
+/// Slate and gesture: no control characters.
+const TAKE_LABEL: &str = r"^[^\u0000-\u001f\u007f-\u009f]*$";
+/// Notes: none but the end of a line.
 const TAKE_TEXT: &str = r"^[^\u0000-\u0009\u000b-\u001f\u007f-\u009f]*$";
 /// Paths of `Take` that may change.
 const TAKE_MASK: &str = r"^((take\.)?(slate|number|gesture|circled|notes)(,|$))*$";
@@ -74,6 +76,8 @@ pub(super) fn required(message: &str) -> &'static [&'static str] {
     match message {
         "CreateSessionRequest" => &["actor", "kind"],
         "StartTakeRequest" => &["session"],
+        "ControlBounds" => &["control"],
+        "ControlPair" => &["first", "second"],
         _ => &[],
     }
 }
@@ -105,10 +109,6 @@ pub(super) fn of(message: &str, field: &str) -> Option<Value> {
         ("SessionSettings", "smoothing" | "sparsity" | "symmetry") => {
             json!({ "minimum": 0, "maximum": 1, "pattern": STRENGTH })
         }
-        // Off, until this version can.
-        ("SessionSettings", "record_images") | ("StartTakeRequest", "with_images") => {
-            json!({ "enum": [false] })
-        }
         ("ControlBounds", "lower" | "upper") => {
             json!({ "minimum": 0, "maximum": LARGEST_BOUND, "pattern": BOUND })
         }
@@ -116,7 +116,7 @@ pub(super) fn of(message: &str, field: &str) -> Option<Value> {
         ("StartTakeRequest", "pre_roll") => json!({ "pattern": PRE_ROLL }),
         ("StartTakeRequest", "session") => json!({ "pattern": SESSION }),
         ("StartTakeRequest" | "Take", "slate" | "gesture") => {
-            json!({ "maxLength": MAX_LABEL, "pattern": TAKE_TEXT })
+            json!({ "maxLength": MAX_LABEL, "pattern": TAKE_LABEL })
         }
         ("Take", "notes") => json!({ "maxLength": MAX_NOTES, "pattern": TAKE_TEXT }),
         ("UpdateTakeRequest", "update_mask") => json!({ "pattern": TAKE_MASK }),

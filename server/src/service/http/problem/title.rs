@@ -19,6 +19,7 @@ const TITLES: &[(&str, &str)] = &[
     ("RATE_LIMIT", "Too much was asked in a minute"),
     // What is there.
     ("ACTOR", "There is no such actor"),
+    ("ACTOR_HAS_TAKES", "There are takes of the actor"),
     ("ACTOR_IN_USE", "A session uses the actor"),
     ("LAYOUT_CHANGED", "The actor has other muscles or markers"),
     ("TAKE", "There is no such take"),
