@@ -14,8 +14,7 @@ use frontalis_proto::v1::{CurveSample, MarkerFrame, TakeEvent, take_event::Event
 use futures::{Stream, StreamExt as _, stream, stream::BoxStream};
 use mcap::{
     McapError,
-    read::ChunkReader,
-    records::{Channel, ChunkHeader, Record, op},
+    records::{Channel, Record, op},
     sans_io::linear_reader::{LinearReadEvent, LinearReader, LinearReaderOptions},
 };
 use prost::Message as _;
@@ -146,13 +145,11 @@ impl RecordedTake {
                 Some(Ok(LinearReadEvent::ReadRequest(n_bytes))) => n_bytes,
                 Some(Ok(LinearReadEvent::Record { data, opcode })) => {
                     self.is_over = opcode == op::DATA_END;
-                    match mcap::parse_record(opcode, data)? {
-                        Record::Channel(channel) => know_topic(channel, &mut self.topics),
-                        Record::Chunk { header, data } => {
-                            self.chunk = chunk_messages(header, &data, &mut self.topics)?;
-                        }
-                        // Messages stand in chunks only; what looks like one elsewhere is damage.
-                        _ => {}
+                    // Messages stand in chunks only; what looks like one elsewhere is damage.
+                    if opcode == op::CHUNK {
+                        self.chunk = chunk_messages(data, &mut self.topics)?;
+                    } else if let Record::Channel(channel) = mcap::parse_record(opcode, data)? {
+                        know_topic(channel, &mut self.topics);
                     }
                     continue;
                 }
@@ -187,26 +184,43 @@ fn know_topic(channel: Channel, topics: &mut HashMap<u16, String>) {
     }
 }
 
-/// The messages of a chunk, once its checksum is right.
+/// The messages of a chunk's record, once its checksum is right.
 fn chunk_messages(
-    header: ChunkHeader,
-    data: &[u8],
+    record: &[u8],
     topics: &mut HashMap<u16, String>,
 ) -> Result<VecDeque<RecordedMessage>, RecordedTakeError> {
-    // Before that many bytes are reserved for it.
-    if header.uncompressed_size > MAX_RECORD_BYTES as u64 {
+    if let Record::Chunk { header, .. } = mcap::parse_record(op::CHUNK, record)?
+        && header.uncompressed_size > MAX_RECORD_BYTES as u64
+    {
+        // Before that many bytes are reserved for it.
         return Err(McapError::ChunkTooLarge(header.uncompressed_size).into());
     }
+    // Read as a file of this chunk alone: what is in it is looked at when all of it is known to be right.
+    let options = LinearReaderOptions::default()
+        .with_skip_start_magic(true)
+        .with_skip_end_magic(true)
+        .with_prevalidate_chunk_crcs(true)
+        .with_validate_chunk_crcs(true)
+        .with_record_length_limit(MAX_RECORD_BYTES);
+    let mut reader = LinearReader::new_with_options(options);
+    let prefix = [&[op::CHUNK][..], &(record.len() as u64).to_le_bytes()].concat();
+    let mut bytes = prefix.as_slice().chain(record);
     let mut messages = VecDeque::new();
-    for record in ChunkReader::new(header, data)? {
-        match record? {
-            Record::Channel(channel) => know_topic(channel, topics),
-            Record::Message { header, data } => {
-                if let Some(topic) = topics.get(&header.channel_id) {
-                    messages.extend(message(topic, &data)?);
-                }
+    while let Some(event) = reader.next_event() {
+        match event? {
+            LinearReadEvent::ReadRequest(n_bytes) => {
+                let n_read = bytes.read(reader.insert(n_bytes))?;
+                reader.notify_read(n_read);
             }
-            _ => {}
+            LinearReadEvent::Record { data, opcode } => match mcap::parse_record(opcode, data)? {
+                Record::Channel(channel) => know_topic(channel, topics),
+                Record::Message { header, data } => {
+                    if let Some(topic) = topics.get(&header.channel_id) {
+                        messages.extend(message(topic, &data)?);
+                    }
+                }
+                _ => {}
+            },
         }
     }
     Ok(messages)

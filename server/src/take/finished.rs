@@ -1,10 +1,10 @@
 //! Reading a take whose file has its final form.
 
-use std::{collections::VecDeque, path::Path};
+use std::{collections::VecDeque, io::Read as _, path::Path};
 
 use mcap::{
-    read::ChunkReader,
-    records::{ChunkHeader, Record, op},
+    McapError,
+    records::{Record, op},
     sans_io::linear_reader::{LinearReadEvent, LinearReader, LinearReaderOptions},
 };
 
@@ -64,9 +64,7 @@ impl FinishedFile {
                 }
                 // Messages stand in chunks only; what looks like one elsewhere is damage.
                 LinearReadEvent::Record { data, opcode } if opcode == op::CHUNK => {
-                    if let Record::Chunk { header, data } = mcap::parse_record(opcode, data)? {
-                        self.chunk = chunk_messages(header, &data)?.into();
-                    }
+                    self.chunk = chunk_messages(data)?.into();
                 }
                 LinearReadEvent::Record { .. } => {}
             }
@@ -74,26 +72,43 @@ impl FinishedFile {
     }
 }
 
-/// The messages of a chunk, once its checksum is right.
-pub(super) fn chunk_messages(
-    header: ChunkHeader,
-    data: &[u8],
-) -> Result<Vec<TakeRecord>, TakeFileError> {
-    // Before that many bytes are reserved for it.
-    if header.uncompressed_size > MAX_RECORD_BYTES as u64 {
-        return Err(mcap::McapError::ChunkTooLarge(header.uncompressed_size).into());
+/// The messages of a chunk's record, once its checksum is right.
+pub(super) fn chunk_messages(record: &[u8]) -> Result<Vec<TakeRecord>, TakeFileError> {
+    if let Record::Chunk { header, .. } = mcap::parse_record(op::CHUNK, record)?
+        && header.uncompressed_size > MAX_RECORD_BYTES as u64
+    {
+        // Before that many bytes are reserved for it.
+        return Err(McapError::ChunkTooLarge(header.uncompressed_size).into());
     }
+    // Read as a file of this chunk alone: what is in it is looked at when all of it is known to be right.
+    let options = LinearReaderOptions::default()
+        .with_skip_start_magic(true)
+        .with_skip_end_magic(true)
+        .with_prevalidate_chunk_crcs(true)
+        .with_validate_chunk_crcs(true)
+        .with_record_length_limit(MAX_RECORD_BYTES);
+    let mut reader = LinearReader::new_with_options(options);
+    let prefix = [&[op::CHUNK][..], &(record.len() as u64).to_le_bytes()].concat();
+    let mut bytes = prefix.as_slice().chain(record);
     let mut messages = Vec::new();
-    for record in ChunkReader::new(header, data)? {
-        if let Record::Message { header, data } = record?
-            && let Some(channel) = Channel::of(header.channel_id)
-        {
-            messages.push(TakeRecord {
-                channel,
-                sequence: header.sequence,
-                time_nanos: header.log_time,
-                data: data.into_owned(),
-            });
+    while let Some(event) = reader.next_event() {
+        match event? {
+            LinearReadEvent::ReadRequest(n_bytes) => {
+                let n_read = bytes.read(reader.insert(n_bytes))?;
+                reader.notify_read(n_read);
+            }
+            LinearReadEvent::Record { data, opcode } => {
+                if let Record::Message { header, data } = mcap::parse_record(opcode, data)?
+                    && let Some(channel) = Channel::of(header.channel_id)
+                {
+                    messages.push(TakeRecord {
+                        channel,
+                        sequence: header.sequence,
+                        time_nanos: header.log_time,
+                        data: data.into_owned(),
+                    });
+                }
+            }
         }
     }
     Ok(messages)

@@ -2,7 +2,7 @@
 
 use std::{io, path::Path};
 
-use mcap::records::{Record, op};
+use mcap::records::op;
 
 use super::{
     finished::chunk_messages,
@@ -135,10 +135,7 @@ impl FinishedPlaces {
         if !read_exactly(&mut *self.file, start + PREFIX_BYTES as u64, &mut body)? {
             return Err(io::Error::from(io::ErrorKind::UnexpectedEof).into());
         }
-        let Record::Chunk { header, data } = mcap::parse_record(op::CHUNK, &body)? else {
-            return Ok(Vec::new());
-        };
-        chunk_messages(header, &data)
+        chunk_messages(&body)
     }
 }
 

@@ -58,7 +58,7 @@ def fit_to_the_actor(settings):
         del bounds[len(BOUNDED) :]
         for control, own in zip(BOUNDED, bounds):
             rename(own, "control", control)
-            lower, upper = own.get("lower", 0), own.get("upper", 0)
+            lower, upper = own.get("lower") or 0, own.get("upper") or 0
             if is_number(lower) and is_number(upper) and float(lower) > float(upper):
                 own["lower"], own["upper"] = upper, lower
     if consists_of_objects(pairs):
