@@ -112,6 +112,8 @@ impl RecordedTake {
         let options = LinearReaderOptions::default()
             .with_skip_end_magic(true)
             .with_emit_chunks(true)
+            // A chunk that is no longer one is missed too, in a file that has its final form.
+            .with_validate_data_section_crc(true)
             .with_record_length_limit(MAX_RECORD_BYTES);
         Self {
             pieces: pieces.boxed(),

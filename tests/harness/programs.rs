@@ -7,6 +7,14 @@ use std::{
     sync::Mutex,
 };
 
+/// Beginnings of the variables that cargo sets for a package that it runs.
+const OF_THIS_PACKAGE: [&str; 4] = [
+    "CARGO_PKG_",
+    "CARGO_MANIFEST_",
+    "CARGO_CRATE_",
+    "CARGO_BIN_",
+];
+
 /// The path of one of the workspace's programs, `frontalis` or `frontalis-server`.
 ///
 /// A test brings it up to date. A measuring program, which stands beside it, takes the one that was built with it.
@@ -24,7 +32,15 @@ fn build(name: &str) -> PathBuf {
         return beside;
     }
     let target = target_folder();
-    let built = Command::new(env!("CARGO"))
+    let mut build = Command::new(env!("CARGO"));
+    // What describes this test's package would be news to build scripts that look at it, and make them run again.
+    for (name, _) in std::env::vars_os() {
+        let name = name.to_string_lossy().into_owned();
+        if OF_THIS_PACKAGE.iter().any(|it| name.starts_with(it)) {
+            build.env_remove(name);
+        }
+    }
+    let built = build
         .current_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join(".."))
         // With the whole workspace and its tests, so that dependencies have the features they were built with before.
         .args(["build", "--quiet", "--locked", "--workspace", "--tests"])

@@ -18,7 +18,7 @@ use crate::{
     catalogue::{CatalogueError, Store, TakeFilter, TakeRow, TakeState},
     fs::Fs,
     name::{SessionId, TakeId},
-    take::{Growth, Recorder, SampleReader, SampleSpan, TakeFileError, file_name},
+    take::{Growth, Recorder, SampleReader, SampleSpan, TakeFileError, file_name, header},
 };
 
 /// Takes of a session that are looked at together.
@@ -132,7 +132,16 @@ impl Replays {
             return *known;
         }
         let (fs, file) = (Arc::clone(&self.fs), self.dir.join(file_name(&row.id)));
-        let read = move || SampleReader::span(&*fs, &file);
+        let name = row.id.resource();
+        let read = move || {
+            // A file of another take is not replayed under this one's name.
+            let is_own = header(&*fs, &file)?.is_some_and(|it| it.take == name);
+            if is_own {
+                SampleReader::span(&*fs, &file)
+            } else {
+                Ok(None)
+            }
+        };
         match self.recorder.read(read).await {
             // One that is just about to begin, or over and not yet said to be, may change.
             Ok(span) if row.state == TakeState::Recording => span,

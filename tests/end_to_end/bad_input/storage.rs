@@ -10,10 +10,12 @@ use std::{
     process::{Command, Stdio},
 };
 
-use frontalis_proto::v1::{ListTakesRequest, Take, TakeState};
+use frontalis_proto::v1::{
+    ExportTakeRequest, ListTakesRequest, ResolveTakeRequest, Take, TakeFormat, TakeState,
+};
 use harness::{
-    Problem, Publisher, RecordedTake, TestPerformance, TestServer, assert_eventually, head_of,
-    http_get, many_takes, program,
+    Problem, Publisher, RecordedTake, TestPerformance, TestServer, assert_eventually,
+    assert_refused, head_of, http_get, many_takes, program,
 };
 use tonic::Code;
 
@@ -107,6 +109,41 @@ async fn h5_a_file_of_another_take_is_reported_served_and_never_merged() {
     let found = get(&server, &take.name).await.unwrap();
     assert_eq!((found.state(), found.n_frames), (TakeState::Closed, 60));
     assert_eq!(recorded(&server, &take).await.frame_numbers().len(), 60);
+}
+
+#[tokio::test(flavor = "multi_thread", worker_threads = 2)]
+async fn h5_a_file_of_another_take_in_place_of_a_closed_one_is_nobody_s_business() {
+    let server = TestServer::with_session("stage").await;
+    let first = record(&server, 60).await;
+    let begun = begin(&server, 61..=90).await;
+    let second = stop(&server, &begun.name).await.unwrap();
+    let file = |take: &Take| format!("{}.mcap", take.name.trim_start_matches("takes/"));
+    let (from, to) = (file(&first), file(&second));
+    let server = server
+        .restart_after(|folder| {
+            let takes = folder.join("takes");
+            fs::copy(takes.join(from), takes.join(to)).unwrap();
+        })
+        .await;
+    let is_refused = |status: &tonic::Status| {
+        assert_refused(status, Code::DataLoss, "TAKE_UNREADABLE");
+        assert!(status.message().contains(&first.name), "{status}");
+    };
+    let mut client = server.takes().await;
+    for format in [TakeFormat::Mcap, TakeFormat::Csv, TakeFormat::Trc] {
+        let request = ExportTakeRequest {
+            name: second.name.clone(),
+            format: format.into(),
+        };
+        is_refused(&client.export_take(request).await.unwrap_err());
+    }
+    let request = ResolveTakeRequest {
+        name: second.name.clone(),
+        ..ResolveTakeRequest::default()
+    };
+    let mut answers = client.resolve_take(request).await.unwrap().into_inner();
+    is_refused(&answers.message().await.unwrap_err());
+    assert_eq!(recorded(&server, &first).await.frame_numbers().len(), 60);
 }
 
 #[tokio::test(flavor = "multi_thread", worker_threads = 2)]

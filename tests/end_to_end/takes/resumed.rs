@@ -156,6 +156,12 @@ async fn a_session_that_records_itself_goes_on_over_a_crash_and_no_frame_is_in_b
     assert_eq!(numbers, (1..=2 * N_FRAMES).collect::<Vec<_>>());
 }
 
+async fn stored_samples(server: &TestServer, take: &str) -> usize {
+    RecordedTake::read(&export(server, take).await)
+        .samples
+        .len()
+}
+
 /// The wire's own form: the rest of the run that crashed, then where the next begins.
 #[tokio::test(flavor = "multi_thread", worker_threads = 2)]
 async fn a_position_in_the_run_that_crashed_is_replayed_to_its_end() {
@@ -168,6 +174,8 @@ async fn a_position_in_the_run_that_crashed_is_replayed_to_its_end() {
     publisher.send(performance.frames(1..=100)).await;
     publisher.durable(100).await.unwrap();
     let run = publisher.started.run;
+    // Frames are on stable storage before their samples are; the position that is asked for is to be there.
+    assert_eventually!(stored_samples(&server, &take.name).await >= 5);
     let server = server.kill_and_restart().await;
     assert!(take_in_order(&server, &take.name).await.recovered);
 

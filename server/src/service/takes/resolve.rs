@@ -118,6 +118,7 @@ impl Takes {
         told: &Told,
     ) -> Result<Option<TakeRow>, Status> {
         let from = &order.from;
+        self.check_readable(from).await?;
         let (fs, dir) = (Arc::clone(&self.fs), self.dir.clone());
         let (origin, n_bytes) = (from.id.clone(), from.content.n_bytes);
         let opened = self
