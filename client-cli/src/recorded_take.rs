@@ -10,7 +10,10 @@ use std::{
     path::Path,
 };
 
-use frontalis_proto::v1::{CurveSample, MarkerFrame, TakeEvent, take_event::Event};
+use frontalis_proto::{
+    MAX_TAKE_RECORD_BYTES, chunk_records,
+    v1::{CurveSample, MarkerFrame, TakeEvent, take_event::Event},
+};
 use futures::{Stream, StreamExt as _, stream, stream::BoxStream};
 use mcap::{
     McapError,
@@ -20,9 +23,6 @@ use mcap::{
 use prost::Message as _;
 
 use crate::{error::ClientError, proto};
-
-/// Longest record that is read, chunks included.
-const MAX_RECORD_BYTES: usize = 64 << 20;
 
 /// Bytes that are read of a file at once.
 const PIECE_BYTES: usize = 64 << 10;
@@ -114,7 +114,7 @@ impl RecordedTake {
             .with_emit_chunks(true)
             // A chunk that is no longer one is missed too, in a file that has its final form.
             .with_validate_data_section_crc(true)
-            .with_record_length_limit(MAX_RECORD_BYTES);
+            .with_record_length_limit(MAX_TAKE_RECORD_BYTES);
         Self {
             pieces: pieces.boxed(),
             piece: Vec::new(),
@@ -186,43 +186,20 @@ fn know_topic(channel: Channel, topics: &mut HashMap<u16, String>) {
     }
 }
 
-/// The messages of a chunk's record, once its checksum is right.
 fn chunk_messages(
     record: &[u8],
     topics: &mut HashMap<u16, String>,
 ) -> Result<VecDeque<RecordedMessage>, RecordedTakeError> {
-    if let Record::Chunk { header, .. } = mcap::parse_record(op::CHUNK, record)?
-        && header.uncompressed_size > MAX_RECORD_BYTES as u64
-    {
-        // Before that many bytes are reserved for it.
-        return Err(McapError::ChunkTooLarge(header.uncompressed_size).into());
-    }
-    // Read as a file of this chunk alone: what is in it is looked at when all of it is known to be right.
-    let options = LinearReaderOptions::default()
-        .with_skip_start_magic(true)
-        .with_skip_end_magic(true)
-        .with_prevalidate_chunk_crcs(true)
-        .with_validate_chunk_crcs(true)
-        .with_record_length_limit(MAX_RECORD_BYTES);
-    let mut reader = LinearReader::new_with_options(options);
-    let prefix = [&[op::CHUNK][..], &(record.len() as u64).to_le_bytes()].concat();
-    let mut bytes = prefix.as_slice().chain(record);
     let mut messages = VecDeque::new();
-    while let Some(event) = reader.next_event() {
-        match event? {
-            LinearReadEvent::ReadRequest(n_bytes) => {
-                let n_read = bytes.read(reader.insert(n_bytes))?;
-                reader.notify_read(n_read);
-            }
-            LinearReadEvent::Record { data, opcode } => match mcap::parse_record(opcode, data)? {
-                Record::Channel(channel) => know_topic(channel, topics),
-                Record::Message { header, data } => {
-                    if let Some(topic) = topics.get(&header.channel_id) {
-                        messages.extend(message(topic, &data)?);
-                    }
+    for record in chunk_records(record)? {
+        match record {
+            Record::Channel(channel) => know_topic(channel, topics),
+            Record::Message { header, data } => {
+                if let Some(topic) = topics.get(&header.channel_id) {
+                    messages.extend(message(topic, &data)?);
                 }
-                _ => {}
-            },
+            }
+            _ => {}
         }
     }
     Ok(messages)

@@ -1,4 +1,5 @@
-//! Wire types of `frontalis.v1`, with the words in which people read some of them, and nothing else.
+//! Wire types of `frontalis.v1`, with the words in which people read some of them, and the one way to read a chunk of the
+//! files that hold them.
 //!
 //! Every message is also `serde`, in the protobuf JSON mapping: camel case, enums by name, 64-bit numbers as strings.
 //!
@@ -8,11 +9,13 @@
 
 mod export_name;
 mod field_mask;
+mod take_chunk;
 mod timestamp;
 mod words;
 
 pub use export_name::export_file_name;
 pub use field_mask::{FieldMask, json_name};
+pub use take_chunk::{MAX_TAKE_RECORD_BYTES, chunk_records};
 pub use timestamp::Timestamp;
 
 /// Version 1 of the protocol.

@@ -1,9 +1,9 @@
 //! Reading a take whose file has its final form.
 
-use std::{collections::VecDeque, io::Read as _, path::Path};
+use std::{collections::VecDeque, path::Path};
 
+use frontalis_proto::{MAX_TAKE_RECORD_BYTES, chunk_records};
 use mcap::{
-    McapError,
     records::{Record, op},
     sans_io::linear_reader::{LinearReadEvent, LinearReader, LinearReaderOptions},
 };
@@ -14,9 +14,6 @@ use super::{
     rewrite::{Rewritten, TakeFileError},
 };
 use crate::fs::{Fs, ReadFile};
-
-/// Longest record that is read; chunks of ours are far shorter.
-const MAX_RECORD_BYTES: usize = 64 << 20;
 
 /// The messages of a file of the final form, in order; every checksum is looked at, that of a chunk before the first of its
 /// messages is given.
@@ -33,7 +30,7 @@ impl FinishedFile {
         let options = LinearReaderOptions::default()
             .with_emit_chunks(true)
             .with_validate_data_section_crc(true)
-            .with_record_length_limit(MAX_RECORD_BYTES);
+            .with_record_length_limit(MAX_TAKE_RECORD_BYTES);
         Self {
             file,
             offset: 0,
@@ -72,46 +69,22 @@ impl FinishedFile {
     }
 }
 
-/// The messages of a chunk's record, once its checksum is right.
+/// The messages of a chunk's record, of channels of ours.
 pub(super) fn chunk_messages(record: &[u8]) -> Result<Vec<TakeRecord>, TakeFileError> {
-    if let Record::Chunk { header, .. } = mcap::parse_record(op::CHUNK, record)?
-        && header.uncompressed_size > MAX_RECORD_BYTES as u64
-    {
-        // Before that many bytes are reserved for it.
-        return Err(McapError::ChunkTooLarge(header.uncompressed_size).into());
-    }
-    // Read as a file of this chunk alone: what is in it is looked at when all of it is known to be right.
-    let options = LinearReaderOptions::default()
-        .with_skip_start_magic(true)
-        .with_skip_end_magic(true)
-        .with_prevalidate_chunk_crcs(true)
-        .with_validate_chunk_crcs(true)
-        .with_record_length_limit(MAX_RECORD_BYTES);
-    let mut reader = LinearReader::new_with_options(options);
-    let prefix = [&[op::CHUNK][..], &(record.len() as u64).to_le_bytes()].concat();
-    let mut bytes = prefix.as_slice().chain(record);
-    let mut messages = Vec::new();
-    while let Some(event) = reader.next_event() {
-        match event? {
-            LinearReadEvent::ReadRequest(n_bytes) => {
-                let n_read = bytes.read(reader.insert(n_bytes))?;
-                reader.notify_read(n_read);
-            }
-            LinearReadEvent::Record { data, opcode } => {
-                if let Record::Message { header, data } = mcap::parse_record(opcode, data)?
-                    && let Some(channel) = Channel::of(header.channel_id)
-                {
-                    messages.push(TakeRecord {
-                        channel,
-                        sequence: header.sequence,
-                        time_nanos: header.log_time,
-                        data: data.into_owned(),
-                    });
-                }
-            }
-        }
-    }
-    Ok(messages)
+    let records = chunk_records(record)?.into_iter();
+    Ok(records.filter_map(message).collect())
+}
+
+fn message(record: Record<'_>) -> Option<TakeRecord> {
+    let Record::Message { header, data } = record else {
+        return None;
+    };
+    Some(TakeRecord {
+        channel: Channel::of(header.channel_id)?,
+        sequence: header.sequence,
+        time_nanos: header.log_time,
+        data: data.into_owned(),
+    })
 }
 
 /// What a file of the final form holds.

@@ -2,6 +2,7 @@
 
 use std::{io, path::Path};
 
+use frontalis_proto::MAX_TAKE_RECORD_BYTES;
 use mcap::records::op;
 
 use super::{
@@ -11,9 +12,6 @@ use super::{
     scan::{self, Piece, Scan, ScanError},
 };
 use crate::fs::{Fs, ReadFile};
-
-/// Longest chunk that is read; those of ours are far shorter.
-const MAX_RECORD_BYTES: u64 = 64 << 20;
 
 /// Opcode and length of a record.
 const PREFIX_BYTES: usize = 9;
@@ -125,7 +123,7 @@ impl FinishedPlaces {
         let [opcode, length @ ..] = prefix;
         let n_bytes = u64::from_le_bytes(length).saturating_add(PREFIX_BYTES as u64);
         let is_data = opcode != op::DATA_END && opcode != op::FOOTER;
-        let fits = n_bytes <= self.size - offset && n_bytes <= MAX_RECORD_BYTES;
+        let fits = n_bytes <= self.size - offset && n_bytes <= MAX_TAKE_RECORD_BYTES as u64;
         Ok((is_data && fits).then_some((opcode, n_bytes)))
     }
 
